@@ -1,0 +1,38 @@
+#include "morphbake/diagnostics/problem.h"
+
+#include <fmt/core.h>
+
+#include <utility>
+
+namespace morphbake {
+namespace {
+
+std::string joined(const std::vector<Problem>& problems) {
+  std::string text;
+  for (const Problem& problem : problems) {
+    if (!text.empty()) text += '\n';
+    text += format_problem(problem);
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string format_problem(const Problem& problem) {
+  const Location& at = problem.location;
+  std::string text = at.file;
+  if (!at.pointer.empty()) text += "#" + at.pointer;
+  if (at.line > 0) text += fmt::format(":{}:{}", at.line, at.column);
+  if (!text.empty()) text += ": ";
+  text += problem.severity == Severity::Error ? "error: " : "warning: ";
+  text += fmt::format("{} [{}]", problem.message, problem.code);
+  if (!problem.hint.empty()) text += "\n  hint: " + problem.hint;
+  return text;
+}
+
+BakeError::BakeError(std::vector<Problem> problems)
+    : std::runtime_error(joined(problems)), problems_(std::move(problems)) {}
+
+BakeError::BakeError(Problem problem) : BakeError(std::vector<Problem>{std::move(problem)}) {}
+
+}  // namespace morphbake

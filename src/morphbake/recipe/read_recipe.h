@@ -1,0 +1,26 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "morphbake/recipe/recipe.h"
+
+namespace morphbake {
+
+/// Reads a recipe and the landmark files that it names; all names resolved, all defaults filled in.
+///
+/// @throws BakeError with all problems found: "json.syntax", "json.duplicate-key", "recipe.unknown-field",
+///         "recipe.wrong-type", "recipe.out-of-range", "recipe.missing-field", "recipe.unknown-name", ...
+Recipe read_recipe(const std::filesystem::path& file);
+
+/// A copy of `recipe` that writes into `folder`, each output under its own file name.
+Recipe redirect_outputs(Recipe recipe, const std::filesystem::path& folder);
+
+/// A first recipe over `sources` that bakes, as JSON text.
+///
+/// @param sources  two or more glTF files; their landmark files are found beside them
+std::string first_recipe(const std::vector<std::filesystem::path>& sources,
+                         const std::filesystem::path& recipe_file);
+
+}  // namespace morphbake

@@ -1,0 +1,129 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+namespace morphbake {
+
+/// Shares of the sources in a mix, one a source in the recipe's order. Sum 1, each in [0, 1].
+using Shares = std::vector<double>;
+
+/// A named point in a source's scene, close to its surface.
+struct NamedPosition {
+  std::string name;
+  Eigen::Vector3d position;  ///< scene units of the source's file
+};
+
+struct SourceRef {
+  std::string name;
+  std::filesystem::path file;  ///< absolute
+  std::vector<NamedPosition> landmarks;
+};
+
+/// How lengths in a recipe are meant.
+enum class Units { Diagonal, Scene };
+
+/// How a ball measures distance on the surface.
+enum class DistanceMeasure { Geodesic, Edges };
+
+/// d = 0 within `inner` of the centre, 1 beyond `outer`, linear between (Alexa 2003, section 5.1).
+struct BallRegion {
+  int source = 0;          ///< the surface on which it is measured
+  Eigen::Vector3d centre;  ///< scene units; snapped to the surface
+  double inner = 0;        ///< >= 0, in `Recipe::units`
+  double outer = 0;        ///< >= inner
+  DistanceMeasure distance = DistanceMeasure::Geodesic;
+};
+
+/// Everything outside the named regions: d = 1 - min over them.
+struct RestOfRegion {
+  std::vector<int> regions;  ///< indices of earlier or later regions, no cycle
+};
+
+struct RegionOfInterest {
+  std::string name;
+  std::variant<BallRegion, RestOfRegion> shape;
+};
+
+enum class Ease { Linear, Step, Smoothstep, Cubic };
+
+/// T' = (1 - a (1 - d)) T + a (1 - d) T~ (Alexa 2003, eq. 7, with an amount a).
+struct Edit {
+  int region = -1;  ///< index; -1 is the whole surface
+  Shares to;
+  double amount = 1;  ///< in [0, 1]
+};
+
+/// An edit whose amount is eased from 0 to `edit.amount` between `begin` and `end`.
+struct Track {
+  std::string name;
+  Edit edit;
+  double begin = 0;  ///< seconds
+  double end = 0;    ///< seconds, >= begin
+  Ease ease = Ease::Smoothstep;
+};
+
+/// A mix of all sources with ordered local edits.
+struct State {
+  std::string name;
+  Shares mix;
+  std::vector<Edit> edits;
+};
+
+struct Key {
+  double time = 0;  ///< seconds
+  int state = 0;    ///< index into Recipe::states
+  Ease ease = Ease::Linear;  ///< of the segment that ends in this key
+};
+
+/// Either keys or tracks. Starts at 0; `duration` is the last key's time or at least the last track's end.
+struct Timeline {
+  double frames_per_second = 30;
+  double duration = 0;  ///< seconds, > 0
+  Shares start;         ///< for tracks
+  std::vector<Track> tracks;
+  std::vector<Key> keys;  ///< times rise strictly, the first is 0
+};
+
+enum class TargetKind { Tracks, Frames };
+
+/// One moment or state as a plain mesh without animation.
+struct Still {
+  std::variant<double, int> at;  ///< seconds, or an index into Recipe::states
+};
+
+struct Output {
+  std::filesystem::path file;  ///< absolute, .glb
+  TargetKind targets = TargetKind::Tracks;
+  std::optional<Still> still;
+};
+
+enum class PreviewFormat { Png, Gif, Sheet };
+
+struct PreviewRequest {
+  int width = 512;
+  int height = 512;
+  int frames = 72;
+  std::vector<PreviewFormat> formats;
+};
+
+/// A scene recipe, all names resolved to indices, all defaults filled in.
+struct Recipe {
+  std::filesystem::path file;
+  std::string name;
+  Units units = Units::Diagonal;
+  std::vector<SourceRef> sources;
+  std::vector<RegionOfInterest> regions;
+  std::vector<State> states;
+  Timeline timeline;
+  std::vector<Output> outputs;
+  std::optional<PreviewRequest> preview;
+  std::string options = "{}";  ///< JSON text of the recipe's "options", see bake/options.h
+};
+
+}  // namespace morphbake
