@@ -13,6 +13,8 @@ set_target_properties(morphbake PROPERTIES HEADER_SET "${public_headers}" DEFINE
 
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/morphbake)
 set(MORPHBAKE_DATA_DIR ${CMAKE_INSTALL_DATADIR}/morphbake)
+file(RELATIVE_PATH lib_from_bin /${CMAKE_INSTALL_BINDIR} /${CMAKE_INSTALL_LIBDIR})
+set_target_properties(morphbake_cli PROPERTIES INSTALL_RPATH "$ORIGIN/${lib_from_bin}")
 install(TARGETS morphbake EXPORT morphbake FILE_SET HEADERS)
 install(TARGETS morphbake_cli)
 install(EXPORT morphbake FILE morphbake-targets.cmake NAMESPACE morphbake::
