@@ -64,7 +64,7 @@ int state_index(Reading& reading, const Json& name, const std::string& pointer) 
   for (const State& each : reading.recipe.states) {
     if (index_of(sources, each.name) < 0) names.push_back(each.name);
   }
-  complain_unknown(reading, names, "state or source", name, pointer);
+  complain_unknown(reading, names, "state", name, pointer);
   return -1;
 }
 
