@@ -48,10 +48,11 @@ void complain(Reading& reading, std::string code, const std::string& pointer, st
                               std::move(hint)});
 }
 
+bool wants_hints(const Reading& reading) { return reading.problems.size() < hinted_problems; }
+
 void complain_unknown(Reading& reading, const std::vector<std::string>& names,
                       std::string_view kind, const Json& name, const std::string& pointer) {
-  // Comparing with all names is slow, and nobody reads that many hints.
-  const bool hinted = reading.problems.size() < hinted_problems;
+  const bool hinted = wants_hints(reading);
   complain(reading, "recipe.unknown-name", pointer,
            fmt::format("there is no {} {}", kind, shown(name)),
            hinted ? name_hint(name.get<std::string>(), names, fmt::format("{}s", kind)) : "");

@@ -29,6 +29,10 @@ struct Reading {
 void complain(Reading& reading, std::string code, const std::string& pointer, std::string message,
               std::string hint);
 
+/// Whether hints are still worth their time: comparing with all names is slow, and nobody reads
+/// hundreds.
+bool wants_hints(const Reading& reading);
+
 /// Says that there is no `kind` called `name`, and which there are.
 ///
 /// @param kind  in the singular: "region"
@@ -57,7 +61,10 @@ template <typename Named>
 int look_up(Reading& reading, const std::vector<Named>& all, std::string_view kind,
             const Json& name, const std::string& pointer) {
   const int index = index_of(all, name.get<std::string>());
-  if (index < 0) complain_unknown(reading, names_of(all), kind, name, pointer);
+  if (index >= 0) return index;
+  const bool hinted = wants_hints(reading);
+  complain_unknown(reading, hinted ? names_of(all) : std::vector<std::string>(), kind, name,
+                   pointer);
   return index;
 }
 
