@@ -1,0 +1,25 @@
+# A recipe that must be refused: bash bad_recipe.sh PROGRAM SCRATCH RECIPE EXPECTED
+#
+# EXPECTED: the exit code, then lines that must each occur on stderr. Nothing may be printed on stdout, no
+# file may be left, and --log json must tell the same as JSON lines.
+. "$(dirname "$0")/testing.sh"
+recipe=$3
+expected=$4
+files_beside() { find "$(dirname "$recipe")" ! -type d | sort; }
+
+before=$(files_beside)
+code=$(head -n 1 "$expected")
+for log in text json; do
+  run "$code" bake "$recipe" --output-dir "$scratch/out" --log $log
+  [ -s "$scratch/stdout" ] && wrong "prints on stdout: $(cat "$scratch/stdout")"
+  no_file_in "$scratch/out" .
+done
+stderr_is_json_lines
+jq -es 'any(.[]; .severity == "error")' "$scratch/stderr" >/dev/null || wrong "no error in the JSON lines"
+
+run "$code" bake "$recipe" --output-dir "$scratch/out"
+while IFS= read -r line; do
+  [ -z "$line" ] || stderr_has "$line"
+done < <(tail -n +2 "$expected")
+[ "$before" = "$(files_beside)" ] || wrong "a file appeared beside the recipe"
+finish
