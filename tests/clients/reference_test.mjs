@@ -41,7 +41,7 @@ await withOrbs(everywhere('linear'), (opened) => {
   const blend = geometries[0].map((x, k) => 0.75 * x + 0.25 * geometries[1][k]);
   near(offBy(solveShape(opened, 0.25), blend), 0, 1e-11, 'uniform T gives the linear blend');
   const { normals } = cornersOf(opened, geometries[0]);
-  const turned = Math.max(...opened.mesh.corners.keys().map((c) => angle(at(normals, c), at(opened.sources[0].normals, c))));
+  const turned = Math.max(...Array.from(opened.mesh.corners, (_, c) => angle(at(normals, c), at(opened.sources[0].normals, c))));
   near(turned, 0, 1e-12, 'the first source keeps its normals');
   checks.check(frameTimes(opened).join() === '0,0.25,0.5,0.75,1', 'frame times');
 });

@@ -8,12 +8,17 @@ import { add, cross, dot, scale, subtract, unit } from '../reference/vectors.mjs
 import { cylinderCap, cylinderSide, icosphere, join, torus } from './surfaces.mjs';
 import { floats, indices, packGlb } from './write_glb.mjs';
 
+const pebble = () => [icosphere(1)];
 const orb = () => [icosphere(3)];
+const boulder = () => [icosphere(4)];
 const drum = () => [cylinderSide(24, 10), join(cylinderCap(24, 1), cylinderCap(24, -1))];
 const duo = () => [torus(20, 12, 0.35), movedTo(icosphere(2), [0, 1.2, 0], 0.5)];
 
 const movedTo = (part, centre, radius) => ({ ...part, points: part.points.map((p) => add(centre, scale(p, radius))) });
 const bump = (p, centre, width) => Math.exp(-subtract(p, centre).reduce((sum, x) => sum + x * x, 0) / width ** 2);
+
+const growNose = (p) =>
+  add(scale(p, 1 + 0.7 * bump(p, [0, 0, 1], 0.35) + 0.3 * bump(p, [0, 0, -1], 0.5)), [0, 0, 0.2]);
 
 function bend([x, y, z], turn) {
   const a = turn * (y + 1);
@@ -25,8 +30,11 @@ const SHAPES = {
   'orb': { parts: orb, deform: (p) => p },
   'orb-long': { parts: orb, deform: ([x, y, z]) => [0.8 * x + 0.4, 1.6 * y + 0.25 * x * x, 0.9 * z] },
   'orb-moved': { parts: orb, deform: (p) => add(p, [0.5, -0.25, 2]) },
-  'orb-nose': { parts: orb, split: true, deform: (p) =>
-    add(scale(p, 1 + 0.7 * bump(p, [0, 0, 1], 0.35) + 0.3 * bump(p, [0, 0, -1], 0.5)), [0, 0, 0.2]) },
+  'orb-nose': { parts: orb, split: true, deform: growNose },
+  'pebble': { parts: pebble, deform: (p) => p },
+  'pebble-nose': { parts: pebble, deform: growNose },
+  'boulder': { parts: boulder, deform: (p) => p },
+  'boulder-nose': { parts: boulder, deform: growNose },
   'drum': { parts: drum, deform: (p) => p, node: {
     translation: [0.5, 1, -2], rotation: [0.18257418583505536, 0.3651483716701107, 0.5477225575051661, 0.7302967433402214],
     scale: [0.5, 1.5, 1] } },
