@@ -33,7 +33,8 @@ class PendingOutputs {
 
   /// Writes `bytes` beside `path` and syncs them to disk. Missing folders are made.
   /// @throws BakeError "output.unwritable"
-  void stage(const std::filesystem::path& path, std::string_view bytes);
+  /// @return  the temporary file, to be read back until commit()
+  std::filesystem::path stage(const std::filesystem::path& path, std::string_view bytes);
 
   /// A fresh temporary name beside `path` for a library that writes the file itself; it must keep the
   /// extension, which such libraries choose the format by.

@@ -30,8 +30,8 @@ struct AnimatedMesh {
   Eigen::Matrix4d to_scene = Eigen::Matrix4d::Identity();  ///< global transform of the node
   std::vector<std::string> target_names;  ///< one a target, "" when the file names none
   std::vector<std::string> images;        ///< encoded bytes (PNG, JPEG) of the images that are used
-  std::vector<double> key_times;          ///< seconds, rising; empty without animation
-  Eigen::MatrixXd key_weights;  ///< #keys (one row of rest weights without animation) by #targets, LINEAR
+  std::vector<float> key_times;           ///< seconds, rising; empty without animation
+  Eigen::MatrixXf key_weights;  ///< #keys (one row of rest weights without animation) by #targets, LINEAR
 };
 
 /// Reads the first node with a mesh from a .glb or .gltf, with targets and weights animation.
@@ -40,6 +40,13 @@ struct AnimatedMesh {
 AnimatedMesh read_animated_mesh(const std::filesystem::path& file);
 
 /// Weights at `time`: linear between keys, constant before the first and after the last (glTF 2.0, 3.11).
+///
+/// @param times    seconds, rising; without any the first row stands
+/// @param weights  #keys (1 without times) by #targets
+/// @return         #targets
+Eigen::VectorXd interpolate_keys(const std::vector<float>& times, const Eigen::MatrixXf& weights, double time);
+
+/// The weights of `mesh` at `time`.
 Eigen::VectorXd weights_at(const AnimatedMesh& mesh, double time);
 
 }  // namespace morphbake

@@ -15,11 +15,14 @@ struct Image {
   std::vector<std::uint8_t> rgb;  ///< width * height * 3
 };
 
-/// Decodes PNG or JPEG bytes; alpha is dropped.
+/// Decodes PNG or JPEG bytes; alpha, orientation tags and colour profiles are ignored
+/// (glTF 2.0, 3.8).
 ///
 /// @param name  where the bytes come from, for the error message
-/// @throws BakeError "image.unreadable", "image.too-large" (more than 16384 pixels a side), before any
-///         pixel memory is allocated
+/// @throws BakeError "image.unreadable" (neither PNG nor JPEG, damaged, cut short),
+/// "image.too-large"
+///         (more than 16384 pixels a side), both before any pixel memory is allocated where the
+///         header shows it
 Image decode_image(std::string_view bytes, const std::string& name);
 
 /// PNG bytes of `image`: no time stamp, the same for the same pixels.
@@ -27,12 +30,23 @@ std::string encode_png(const Image& image);
 
 /// Writes an endlessly looping animated GIF to `file` (which the caller owns as a temporary file).
 ///
-/// @param frames  one or more pictures of one size
+/// One palette serves the whole loop and the dither pattern stands still, so nothing flickers that
+/// does not move.
+/// @param frames  one or more pictures of one size, at most 65535 pixels a side
+/// @param frames_per_second  above 0, at most 50 (players slow down shorter delays); the delays are
+/// whole
+///         1/100 s that add up to the loop's exact length
 /// @throws BakeError "output.unwritable"
 void write_gif(const std::filesystem::path& file, const std::vector<Image>& frames,
                double frames_per_second);
 
-/// All `frames` in one picture, `columns` a row, scaled down to `cell_width`.
+/// All `frames` (one or more) in one picture, `columns` a row, scaled down to `cell_width`.
+///
+/// The gaps take the colour of the first frame's border. Cells are never scaled up.
 Image contact_sheet(const std::vector<Image>& frames, int columns, int cell_width);
+
+/// `image` scaled down to `width` x `height` (at most its own size) by an exact box filter on
+/// linear light.
+Image scale_down(const Image& image, int width, int height);
 
 }  // namespace morphbake

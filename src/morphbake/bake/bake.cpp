@@ -1,0 +1,93 @@
+#include "morphbake/bake/bake.h"
+
+#include "morphbake/bake/outputs.h"
+#include "morphbake/bake/previews.h"
+#include "morphbake/bake/stage_clock.h"
+#include "morphbake/transition/regions.h"
+
+namespace morphbake {
+namespace {
+
+/// Loads all sources, so that the problems of all are told at once.
+std::vector<SourceMesh> load_sources(const Recipe& recipe, const Observer& observer) {
+  std::vector<SourceMesh> sources;
+  std::vector<Problem> problems;
+  const auto count = static_cast<int>(recipe.sources.size());
+  for (int s = 0; s < count; ++s) {
+    advance(observer, {"sources", s, count});
+    try {
+      sources.push_back(load_source(recipe.sources[static_cast<std::size_t>(s)]));
+    } catch (const BakeError& error) {
+      problems.insert(problems.end(), error.problems().begin(), error.problems().end());
+    }
+  }
+  if (!problems.empty()) throw BakeError(problems);
+  return sources;
+}
+
+std::filesystem::path stem_of(std::filesystem::path file) { return file.replace_extension(); }
+
+/// Lets the report keep the warnings that the caller hears.
+Observer recording(const Observer& observer, std::vector<Problem>& problems) {
+  Observer both = observer;
+  both.on_problem = [&observer, &problems](const Problem& problem) {
+    problems.push_back(problem);
+    report(observer, problem);
+  };
+  return both;
+}
+
+}  // namespace
+
+BakeReport bake(const Recipe& recipe, const BakeOptions& options, const Observer& caller) {
+  BakeReport bake_report;
+  bake_report.recipe = recipe.name;
+  const Observer observer = recording(caller, bake_report.problems);
+  StageClock clock(observer);
+
+  clock.start("sources");
+  const std::vector<SourceMesh> sources = load_sources(recipe, observer);
+  clock.start("connectivity");
+  const MorphableMesh mesh = share_connectivity(sources);
+  clock.start("transition");
+  const std::vector<Eigen::VectorXd> regions = region_distances(mesh, recipe);
+  const SeparableTimeline separable = separate_timeline(recipe, regions, mesh.connectivity.vertex_count);
+  clock.start("solve");
+  const LaplacianSystem system(mesh);
+  const TranslationGauge gauge = choose_gauge(mesh, system.components(), separable.fields);
+  const SolvedShapes shapes = solve_fields(system, separable, gauge);
+  clock.start("export");
+  const SmoothingGroups groups = find_smoothing_groups(sources.front(), mesh);
+  PendingOutputs outputs;
+  const SolvedRecipe solved{recipe, sources.front(), mesh, regions, separable, system, gauge, shapes, groups};
+  std::vector<std::filesystem::path> staged(recipe.outputs.size());
+  for (std::size_t i = 0; i < recipe.outputs.size(); ++i) {
+    bake_report.outputs.push_back(stage_output(solved, i, options, observer, outputs, staged[i]));
+  }
+  if (recipe.preview) {
+    clock.start("preview");
+    for (std::size_t i = 0; i < recipe.outputs.size(); ++i) {
+      OutputReport& output = bake_report.outputs[i];
+      TurntableOptions look = options.turntable;
+      look.threads = options.threads;
+      output.previews =
+          stage_previews(staged[i], *recipe.preview, look, stem_of(output.file), observer, outputs);
+    }
+  }
+  outputs.commit();
+
+  bake_report.vertices = mesh.connectivity.vertex_count;
+  bake_report.triangles = static_cast<int>(mesh.connectivity.triangles.rows());
+  bake_report.components = system.components().count;
+  bake_report.frames = static_cast<int>(frame_times(recipe.timeline).size());
+  bake_report.solved_shapes = static_cast<int>(separable.fields.size());
+  bake_report.stages = clock.finish();
+  return bake_report;
+}
+
+void validate(const Recipe& recipe, const Observer& observer) {
+  const MorphableMesh mesh = share_connectivity(load_sources(recipe, observer));
+  separate_timeline(recipe, region_distances(mesh, recipe), mesh.connectivity.vertex_count);
+}
+
+}  // namespace morphbake

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "morphbake/basis/basis_options.h"
+#include "morphbake/mesh/mesh.h"
+#include "morphbake/recipe/recipe.h"
+#include "morphbake/solve/solve_fields.h"
+
+namespace morphbake {
+
+struct MorphTarget {
+  std::string name;
+  Positions displacement;  ///< #V by 3, scene space
+};
+
+/// A motion as glTF plays it: base + sum_k w_k(t) displacement_k, with weights linear between keys.
+struct MorphBasis {
+  Positions base;  ///< #V by 3, scene space, the first frame
+  std::vector<MorphTarget> targets;
+  std::vector<float> key_times;  ///< seconds, rising strictly, the first is 0
+  Eigen::MatrixXf key_weights;   ///< #keys by #targets, each in [0, 1], the first row is 0 for `Frames`
+};
+
+/// One target a solved shape ("nose", "body", and their product where they overlap), whose weights are
+/// the eased amounts, keyed as densely as the tolerance asks for.
+MorphBasis track_basis(const SolvedShapes& shapes, const SeparableTimeline& separable,
+                       const Timeline& timeline, const BasisOptions& options);
+
+/// One target a frame, each fading into the next.
+MorphBasis frame_basis(const SolvedShapes& shapes, const SeparableTimeline& separable,
+                       const Timeline& timeline);
+
+/// Positions at weights `w` (one a target).
+Positions combine_targets(const MorphBasis& basis, const Eigen::VectorXd& w);
+
+}  // namespace morphbake

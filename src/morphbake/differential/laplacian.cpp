@@ -1,0 +1,52 @@
+#include "morphbake/differential/laplacian.h"
+
+namespace morphbake {
+
+Positions differential_coordinates(const OneRings& rings, const Positions& positions) {
+  Positions W(positions.rows(), 3);
+  for (int i = 0; i < positions.rows(); ++i) {
+    const auto v = static_cast<std::size_t>(i);
+    Eigen::RowVector3d sum = Eigen::RowVector3d::Zero();
+    for (int n = rings.offsets[v]; n < rings.offsets[v + 1]; ++n) {
+      sum += positions.row(i) - positions.row(rings.neighbours[static_cast<std::size_t>(n)]);
+    }
+    W.row(i) = sum / rings.degree(i);
+  }
+  return W;
+}
+
+Eigen::SparseMatrix<double> symmetric_laplacian(const OneRings& rings) {
+  const auto vertex_count = static_cast<Eigen::Index>(rings.offsets.size()) - 1;
+  std::vector<Eigen::Triplet<double>> entries;
+  entries.reserve(rings.neighbours.size() + rings.offsets.size());
+  for (int i = 0; i < vertex_count; ++i) {
+    const auto v = static_cast<std::size_t>(i);
+    entries.emplace_back(i, i, rings.degree(i));
+    for (int n = rings.offsets[v]; n < rings.offsets[v + 1]; ++n) {
+      entries.emplace_back(i, rings.neighbours[static_cast<std::size_t>(n)], -1.0);
+    }
+  }
+  Eigen::SparseMatrix<double> K_L(vertex_count, vertex_count);
+  K_L.setFromTriplets(entries.begin(), entries.end());
+  return K_L;
+}
+
+Positions blend_edge_differences(const OneRings& rings, const std::vector<Positions>& geometries,
+                                 const Eigen::MatrixXd& weights) {
+  Positions b = Positions::Zero(weights.cols(), 3);
+  for (std::size_t s = 0; s < geometries.size(); ++s) {
+    const Positions& V = geometries[s];
+    const Eigen::RowVectorXd T = weights.row(static_cast<Eigen::Index>(s));
+    for (int i = 0; i < b.rows(); ++i) {
+      const auto v = static_cast<std::size_t>(i);
+      for (int n = rings.offsets[v]; n < rings.offsets[v + 1]; ++n) {
+        const int j = rings.neighbours[static_cast<std::size_t>(n)];
+        const double T_ij = (T(i) + T(j)) / 2;
+        if (T_ij != 0) b.row(i) += T_ij * (V.row(i) - V.row(j));
+      }
+    }
+  }
+  return b;
+}
+
+}  // namespace morphbake

@@ -1,0 +1,150 @@
+#include "morphbake/export/mesh_morph.h"
+
+#include <Eigen/LU>
+#include <Eigen/QR>
+#include <algorithm>
+#include <utility>
+
+namespace morphbake {
+namespace {
+
+Eigen::Matrix3d linear_part(const SourceMesh& first) {
+  return first.geometry.to_scene.topLeftCorner<3, 3>();
+}
+
+/// Normals of groups in mesh space, unit length.
+Normals to_mesh_space(const Normals& scene_normals, const Eigen::Matrix3d& linear) {
+  return (scene_normals * linear).rowwise().normalized();
+}
+
+/// Least-squares fit of normal displacements to the weights over all frames.
+std::vector<Normals> fit_normal_targets(const MorphableMesh& mesh, const MorphBasis& basis,
+                                        const SmoothingGroups& groups, const ReferenceMotion& motion,
+                                        const Eigen::Matrix3d& linear) {
+  const auto target_count = static_cast<Eigen::Index>(basis.targets.size());
+  const Normals rest = to_mesh_space(deformed_normals(groups, mesh, basis.base), linear);
+  Eigen::MatrixXd gram = Eigen::MatrixXd::Zero(target_count, target_count);
+  std::vector<Normals> moments(basis.targets.size(), Normals::Zero(groups.count, 3));
+  for (const double time : motion.frame_times) {
+    const Eigen::VectorXd w = interpolate_keys(basis.key_times, basis.key_weights, time);
+    gram += w * w.transpose();
+    if (w.isZero(0)) continue;
+    const Positions positions = motion.positions_at(time);
+    const Normals difference = to_mesh_space(deformed_normals(groups, mesh, positions), linear) - rest;
+    for (Eigen::Index k = 0; k < target_count; ++k) {
+      if (w(k) != 0) moments[static_cast<std::size_t>(k)] += w(k) * difference;
+    }
+  }
+  // Targets that never move, or move together, leave the Gram matrix singular: least norm then.
+  const Eigen::MatrixXd inverse = gram.completeOrthogonalDecomposition().pseudoInverse();
+  std::vector<Normals> fitted(basis.targets.size(), Normals::Zero(groups.count, 3));
+  for (Eigen::Index k = 0; k < target_count; ++k) {
+    for (Eigen::Index m = 0; m < target_count; ++m) {
+      if (inverse(k, m) != 0) {
+        fitted[static_cast<std::size_t>(k)] += inverse(k, m) * moments[static_cast<std::size_t>(m)];
+      }
+    }
+  }
+  return fitted;
+}
+
+/// Rows of `of_vertex` for the render vertices begin, begin + 1, ...; zero for those that no triangle uses.
+template <typename Rows>
+Float3s spread(const Rows& of_vertex, const std::vector<int>& index, Eigen::Index begin, Eigen::Index count) {
+  Float3s rows = Float3s::Zero(count, 3);
+  for (Eigen::Index r = 0; r < count; ++r) {
+    const int vertex = index[static_cast<std::size_t>(begin + r)];
+    if (vertex >= 0) rows.row(r) = of_vertex.row(vertex).template cast<float>();
+  }
+  return rows;
+}
+
+MeshMorph empty_morph(const SourceMesh& first) {
+  MeshMorph morph;
+  morph.node = first.geometry.node;
+  morph.mesh = first.geometry.mesh;
+  morph.key_weights = Eigen::MatrixXf::Zero(1, 0);
+  return morph;
+}
+
+/// Adds rest geometry: the file's own numbers, moved by how far `positions` are from the source's.
+void add_rest(const SourceMesh& first, const MorphableMesh& mesh, const SmoothingGroups& groups,
+              const Positions& positions, MeshMorph& morph) {
+  const Eigen::Matrix3d to_mesh = linear_part(first).inverse();
+  const Positions moved = (positions - mesh.geometries[0]) * to_mesh.transpose();
+  Normals normals;
+  if (groups.count > 0) {
+    normals = to_mesh_space(deformed_normals(groups, mesh, positions), linear_part(first));
+  }
+  const bool is_source = moved.isZero(0);  // then the file's own normals stand too, bit for bit
+  Eigen::Index begin = 0;
+  for (const PrimitiveGeometry& source : first.geometry.primitives) {
+    const Eigen::Index count = source.positions.rows();
+    PrimitiveMorph& primitive = morph.primitives.emplace_back();
+    primitive.positions = source.positions;
+    if (groups.count > 0) primitive.normals = source.normals;
+    for (Eigen::Index r = 0; r < count; ++r) {
+      const auto render = static_cast<std::size_t>(begin + r);
+      const int vertex = mesh.vertex_of_render[render];
+      if (vertex < 0 || is_source) continue;
+      primitive.positions.row(r) =
+          (source.positions.row(r).cast<double>() + moved.row(vertex)).cast<float>();
+      if (groups.count > 0) primitive.normals.row(r) = normals.row(groups.of_render[render]).cast<float>();
+    }
+    begin += count;
+  }
+}
+
+}  // namespace
+
+ReferenceMotion reference_motion(const SolvedShapes& shapes, const SeparableTimeline& separable,
+                                 const Timeline& timeline, TargetKind kind) {
+  const std::vector<double> times = frame_times(timeline);
+  const auto exact = [&](double time) {
+    return combine_shapes(shapes, field_coefficients(timeline, separable, time));
+  };
+  if (kind == TargetKind::Tracks) return {times, exact};
+  const auto between_frames = [exact, times](double time) -> Positions {
+    const auto next = std::lower_bound(times.begin(), times.end(), time);
+    if (next == times.end() || *next == time) return exact(time);
+    const double begin = *(next - 1);
+    const double share = (time - begin) / (*next - begin);
+    return (1 - share) * exact(begin) + share * exact(*next);
+  };
+  return {times, between_frames};
+}
+
+MeshMorph make_mesh_morph(const SourceMesh& first, const MorphableMesh& mesh, const MorphBasis& basis,
+                          const SmoothingGroups& groups, const ReferenceMotion& motion) {
+  MeshMorph morph = empty_morph(first);
+  add_rest(first, mesh, groups, basis.base, morph);
+  const Eigen::Matrix3d linear = linear_part(first);
+  const Eigen::Matrix3d to_mesh = linear.inverse();
+  std::vector<Normals> normals;
+  if (groups.count > 0) normals = fit_normal_targets(mesh, basis, groups, motion, linear);
+  for (std::size_t k = 0; k < basis.targets.size(); ++k) {
+    morph.target_names.push_back(basis.targets[k].name);
+    const Positions displacement = basis.targets[k].displacement * to_mesh.transpose();
+    Eigen::Index begin = 0;
+    for (PrimitiveMorph& primitive : morph.primitives) {
+      const Eigen::Index count = primitive.positions.rows();
+      primitive.target_positions.push_back(spread(displacement, mesh.vertex_of_render, begin, count));
+      if (groups.count > 0) {
+        primitive.target_normals.push_back(spread(normals[k], groups.of_render, begin, count));
+      }
+      begin += count;
+    }
+  }
+  morph.key_times = basis.key_times;
+  morph.key_weights = basis.key_weights;
+  return morph;
+}
+
+MeshMorph make_still(const SourceMesh& first, const MorphableMesh& mesh, const SmoothingGroups& groups,
+                     const Positions& positions) {
+  MeshMorph morph = empty_morph(first);
+  add_rest(first, mesh, groups, positions, morph);
+  return morph;
+}
+
+}  // namespace morphbake

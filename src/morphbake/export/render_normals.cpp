@@ -1,0 +1,72 @@
+#include "morphbake/export/render_normals.h"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <array>
+#include <map>
+
+#include "morphbake/mesh/normals.h"
+
+namespace morphbake {
+namespace {
+
+/// NORMAL of every render vertex as it stands in the file; no rows when a primitive has none.
+Float3s all_file_normals(const SourceMesh& source) {
+  Float3s normals(source.positions.rows(), 3);
+  Eigen::Index begin = 0;
+  for (const PrimitiveGeometry& primitive : source.geometry.primitives) {
+    if (primitive.normals.rows() == 0) return {};
+    normals.middleRows(begin, primitive.normals.rows()) = primitive.normals;
+    begin += primitive.normals.rows();
+  }
+  return normals;
+}
+
+}  // namespace
+
+SmoothingGroups find_smoothing_groups(const SourceMesh& first, const MorphableMesh& mesh) {
+  SmoothingGroups groups;
+  const Float3s file_normals = all_file_normals(first);
+  if (file_normals.rows() == 0) return groups;
+  using Key = std::array<float, 3>;
+  std::vector<std::map<Key, int>> at_vertex(static_cast<std::size_t>(mesh.connectivity.vertex_count));
+  std::vector<int> render_of_group;
+  groups.of_render.assign(mesh.vertex_of_render.size(), -1);
+  for (std::size_t r = 0; r < mesh.vertex_of_render.size(); ++r) {
+    const int vertex = mesh.vertex_of_render[r];
+    if (vertex < 0) continue;
+    const auto row = file_normals.row(static_cast<Eigen::Index>(r));
+    const auto [entry, is_new] =
+        at_vertex[static_cast<std::size_t>(vertex)].try_emplace(Key{row(0), row(1), row(2)}, groups.count);
+    groups.of_render[r] = entry->second;
+    if (!is_new) continue;
+    ++groups.count;
+    render_of_group.push_back(static_cast<int>(r));
+  }
+  for (const int render : mesh.render_of_corner) {
+    groups.of_corner.push_back(groups.of_render[static_cast<std::size_t>(render)]);
+  }
+  // Normals go to the scene by the inverse transpose (glTF 2.0, 3.7.2.1).
+  const Eigen::Matrix3d inverse = first.geometry.to_scene.topLeftCorner<3, 3>().inverse();
+  const Float3s chosen = file_normals(render_of_group, Eigen::all);
+  groups.source_normals = (chosen.cast<double>() * inverse).rowwise().normalized();
+  groups.surface_normals =
+      corner_group_normals(mesh.geometries[0], mesh.connectivity.triangles, groups.of_corner, groups.count);
+  return groups;
+}
+
+Normals deformed_normals(const SmoothingGroups& groups, const MorphableMesh& mesh, const Positions& positions) {
+  const Normals surface =
+      corner_group_normals(positions, mesh.connectivity.triangles, groups.of_corner, groups.count);
+  Normals normals = groups.source_normals;
+  for (int g = 0; g < groups.count; ++g) {
+    const Eigen::Vector3d from = groups.surface_normals.row(g);
+    const Eigen::Vector3d to = surface.row(g);
+    // Where all triangles have collapsed, on either side, there is no turn to follow.
+    if (from.isZero(0) || to.isZero(0) || from == to) continue;
+    normals.row(g) = carry_normal(from, to, groups.source_normals.row(g)).normalized();
+  }
+  return normals;
+}
+
+}  // namespace morphbake

@@ -1,0 +1,141 @@
+#include "morphbake/files/files.h"
+
+#include <fcntl.h>
+#include <fmt/core.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <random>
+#include <system_error>
+
+#include "morphbake/diagnostics/problem.h"
+
+namespace morphbake {
+namespace fs = std::filesystem;
+namespace {
+
+[[noreturn]] void fail(const std::string& code, const fs::path& path, const std::string& message,
+                       const std::string& hint = {}) {
+  throw BakeError(Problem{Severity::Error, code, {path.string(), "", 0, 0}, message, hint});
+}
+
+[[noreturn]] void fail_to_write(const fs::path& path, int error) {
+  fail("output.unwritable", path, fmt::format("cannot write: {}", std::strerror(error)),
+       "check that the folder is writable and has free space, or choose another with --output-dir");
+}
+
+/// "dir/name.gif" -> "dir/.name.3f2a9c01.tmp.gif"; the extension stays last because libraries choose by it.
+fs::path temporary_beside(const fs::path& path) {
+  std::random_device random;
+  const std::string token = fmt::format("{:08x}{:08x}", random(), random());
+  // File names may have 255 bytes at most: a long name is cut, the token keeps it unique.
+  const std::string stem = path.stem().string().substr(0, 180);
+  return path.parent_path() / fmt::format(".{}.{}.tmp{}", stem, token, path.extension().string());
+}
+
+void sync_to_disk(const fs::path& path) {
+  const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  if (descriptor < 0) fail_to_write(path, errno);
+  const int result = ::fsync(descriptor);
+  const int error = errno;
+  ::close(descriptor);
+  if (result != 0) fail_to_write(path, error);
+}
+
+void write_new_file(const fs::path& path, std::string_view bytes) {
+  const int descriptor = ::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+  if (descriptor < 0) fail_to_write(path, errno);
+  std::size_t done = 0;
+  while (done < bytes.size()) {
+    const ssize_t count = ::write(descriptor, bytes.data() + done, bytes.size() - done);
+    if (count < 0 && errno == EINTR) continue;
+    if (count <= 0) {
+      const int error = errno;
+      ::close(descriptor);
+      fail_to_write(path, error);
+    }
+    done += static_cast<std::size_t>(count);
+  }
+  const bool synced = ::fsync(descriptor) == 0;
+  const int error = errno;
+  if (::close(descriptor) != 0 || !synced) fail_to_write(path, error);
+}
+
+/// Makes the folder of `path` and records what it had to make, innermost last.
+void make_folders(const fs::path& folder, std::vector<fs::path>& made) {
+  if (folder.empty() || fs::is_directory(folder)) return;
+  make_folders(folder.parent_path(), made);
+  std::error_code error;
+  if (fs::create_directory(folder, error)) made.push_back(folder);
+  if (error) fail_to_write(folder, error.value());
+}
+
+}  // namespace
+
+std::string read_file(const fs::path& path, std::uintmax_t size_limit) {
+  std::error_code error;
+  const fs::file_status status = fs::status(path, error);
+  if (!fs::exists(status)) fail("files.missing", path, "there is no such file");
+  if (!fs::is_regular_file(status)) fail("files.not-a-file", path, "this is not a regular file");
+  const std::uintmax_t size = fs::file_size(path, error);
+  if (error) fail("files.unreadable", path, "cannot read: " + error.message());
+  if (size > size_limit) {
+    fail("files.too-large", path, fmt::format("the file has {} bytes; the limit is {}", size, size_limit));
+  }
+  std::ifstream stream(path, std::ios::binary);
+  std::string bytes(static_cast<std::size_t>(size), '\0');
+  if (!stream || !stream.read(bytes.data(), static_cast<std::streamsize>(size))) {
+    fail("files.unreadable", path, "cannot read the file");
+  }
+  return bytes;
+}
+
+fs::path inside_folder(const fs::path& folder, std::string_view uri) {
+  const fs::path relative(uri);
+  const bool has_scheme = uri.find(':') != std::string_view::npos;
+  const bool has_nul = uri.find('\0') != std::string_view::npos;
+  if (uri.empty() || has_scheme || has_nul || relative.is_absolute()) return {};
+  std::error_code error;
+  const fs::path root = fs::weakly_canonical(folder, error);
+  if (error) return {};
+  const fs::path target = fs::weakly_canonical(root / relative, error);
+  if (error) return {};
+  const auto [root_end, ignored] = std::mismatch(root.begin(), root.end(), target.begin(), target.end());
+  return root_end == root.end() ? target : fs::path();
+}
+
+PendingOutputs::~PendingOutputs() {
+  std::error_code ignored;
+  for (const Entry& entry : entries_) fs::remove(entry.temporary, ignored);
+  for (auto folder = made_folders_.rbegin(); folder != made_folders_.rend(); ++folder) {
+    fs::remove(*folder, ignored);  // fails, as it should, when something is in it
+  }
+}
+
+fs::path PendingOutputs::stage_external(const fs::path& path) {
+  make_folders(path.parent_path(), made_folders_);
+  if (fs::is_directory(path)) fail_to_write(path, EISDIR);
+  entries_.push_back({temporary_beside(path), path});
+  return entries_.back().temporary;
+}
+
+fs::path PendingOutputs::stage(const fs::path& path, std::string_view bytes) {
+  fs::path temporary = stage_external(path);
+  write_new_file(temporary, bytes);
+  return temporary;
+}
+
+void PendingOutputs::commit() {
+  for (const Entry& entry : entries_) sync_to_disk(entry.temporary);
+  for (const Entry& entry : entries_) {
+    if (std::rename(entry.temporary.c_str(), entry.target.c_str()) != 0) fail_to_write(entry.target, errno);
+  }
+  entries_.clear();
+  made_folders_.clear();
+}
+
+}  // namespace morphbake

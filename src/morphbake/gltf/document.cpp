@@ -1,0 +1,212 @@
+#include "morphbake/gltf/document.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cstdint>
+#include <cstring>
+
+#include "morphbake/diagnostics/problem.h"
+#include "morphbake/files/files.h"
+
+namespace morphbake {
+namespace fs = std::filesystem;
+namespace {
+
+// tinygltf counts bytes in 32 bits.
+constexpr std::uintmax_t kFileSizeLimit = (std::uintmax_t{1} << 32) - 1;
+
+// What a source may require and still be read right: these change how a surface looks, not its shape.
+constexpr std::array kReadableExtensions = {
+    "KHR_materials_unlit",     "KHR_materials_clearcoat", "KHR_materials_emissive_strength",
+    "KHR_materials_ior",       "KHR_materials_sheen",     "KHR_materials_specular",
+    "KHR_materials_transmission", "KHR_materials_volume", "KHR_materials_iridescence",
+    "KHR_materials_anisotropy", "KHR_materials_dispersion", "KHR_materials_variants",
+    "KHR_lights_punctual"};
+
+std::uint32_t read_u32(const std::string& bytes, std::size_t offset) {
+  std::uint32_t value = 0;
+  std::memcpy(&value, bytes.data() + offset, sizeof value);  // GLB and this machine: little-endian
+  return value;
+}
+
+bool is_binary(const std::string& bytes) { return bytes.compare(0, 4, "glTF") == 0; }
+
+/// The JSON chunk of a .glb, after checking its header.
+std::string json_chunk(const GltfDocument& document, const std::string& bytes) {
+  constexpr std::size_t kHeader = 12, kChunkHeader = 8;
+  if (bytes.size() < kHeader + kChunkHeader) {
+    fail_at(document, "", "gltf.truncated", fmt::format("a .glb of {} bytes is no glTF", bytes.size()));
+  }
+  if (const std::uint32_t version = read_u32(bytes, 4); version != 2) {
+    fail_at(document, "", "gltf.version", fmt::format("the .glb has container version {}", version),
+            "only glTF 2.0 can be read");
+  }
+  if (const std::uint32_t length = read_u32(bytes, 8); length != bytes.size()) {
+    fail_at(document, "", "gltf.truncated",
+            fmt::format("the .glb says that it has {} bytes but has {}", length, bytes.size()),
+            "the file was cut off or damaged; export or copy it again");
+  }
+  const std::uint32_t length = read_u32(bytes, kHeader);
+  if (length > bytes.size() - kHeader - kChunkHeader || bytes.compare(16, 4, "JSON") != 0) {
+    fail_at(document, "", "gltf.truncated", "the first chunk of the .glb is no complete JSON chunk");
+  }
+  return bytes.substr(kHeader + kChunkHeader, length);
+}
+
+std::string percent_decoded(const std::string& uri) {
+  std::string text;
+  for (std::size_t i = 0; i < uri.size(); ++i) {
+    unsigned value = 0;
+    const char* digits = uri.data() + i + 1;
+    const bool escaped = uri[i] == '%' && i + 2 < uri.size() &&
+                         std::from_chars(digits, digits + 2, value, 16).ptr == digits + 2;
+    text += escaped ? static_cast<char>(value) : uri[i];
+    if (escaped) i += 2;
+  }
+  return text;
+}
+
+std::string array_pointer(const char* array, std::size_t index) {
+  return fmt::format("/{}/{}", array, index);
+}
+
+void check_version(const GltfDocument& document) {
+  const Json& json = document.json;
+  const Json asset = json.is_object() ? json.value("asset", Json::object()) : Json();
+  if (!asset.is_object() || !asset.contains("version")) {
+    fail_at(document, "/asset/version", "gltf.not-gltf", "this JSON has no glTF asset version");
+  }
+  if (asset["version"] != "2.0") {
+    fail_at(document, "/asset/version", "gltf.version",
+            fmt::format("glTF version {} cannot be read", asset["version"].dump()),
+            "only glTF 2.0 can be read; convert the file");
+  }
+}
+
+void check_required_extensions(const GltfDocument& document) {
+  const auto required = document.json.find("extensionsRequired");
+  if (required == document.json.end() || !required->is_array()) return;
+  for (std::size_t i = 0; i < required->size(); ++i) {
+    const std::string name = (*required)[i].is_string() ? (*required)[i].get<std::string>() : "";
+    const auto known = std::find(kReadableExtensions.begin(), kReadableExtensions.end(), name);
+    if (known != kReadableExtensions.end()) continue;
+    fail_at(document, array_pointer("extensionsRequired", i), "gltf.unsupported-extension",
+            fmt::format("the file requires the extension \"{}\", which is not supported", name),
+            "export it without that extension");
+  }
+}
+
+void check_uris(const GltfDocument& document, const char* array) {
+  const auto items = document.json.find(array);
+  if (items == document.json.end() || !items->is_array()) return;
+  for (std::size_t i = 0; i < items->size(); ++i) {
+    const Json& item = (*items)[i];
+    if (!item.is_object() || !item.contains("uri") || !item["uri"].is_string()) continue;
+    const std::string uri = item["uri"];
+    if (uri.compare(0, 5, "data:") == 0) continue;
+    const std::string pointer = array_pointer(array, i) + "/uri";
+    const fs::path target = inside_folder(document.file.parent_path(), percent_decoded(uri));
+    if (target.empty()) {
+      fail_at(document, pointer, "gltf.outside-folder",
+              fmt::format("the URI \"{}\" leaves the folder of the glTF", uri),
+              "put the file beside the glTF and name it by a relative path");
+    }
+    if (!fs::is_regular_file(target)) {
+      fail_at(document, pointer, "gltf.missing-file", fmt::format("there is no file \"{}\"", uri),
+              "a .gltf needs its .bin and textures beside it; a .glb holds everything");
+    }
+  }
+}
+
+void check_buffer_lengths(const GltfDocument& document) {
+  const auto buffers = document.json.find("buffers");
+  if (buffers == document.json.end() || !buffers->is_array()) return;
+  for (std::size_t i = 0; i < buffers->size(); ++i) {
+    const Json& buffer = (*buffers)[i];
+    const bool counted = buffer.is_object() && buffer.contains("byteLength") &&
+                         buffer["byteLength"].is_number_unsigned();
+    if (counted && buffer["byteLength"].get<std::uint64_t>() <= kFileSizeLimit) continue;
+    fail_at(document, array_pointer("buffers", i) + "/byteLength", "gltf.buffer",
+            "a buffer needs a byteLength of at most 4 GiB");
+  }
+}
+
+bool file_exists(const std::string& name, void* user) {
+  const auto& folder = *static_cast<const fs::path*>(user);
+  return !inside_folder(folder, name).empty();
+}
+
+std::string same_path(const std::string& name, void*) { return name; }
+
+bool read_whole_file(std::vector<unsigned char>* out, std::string* error, const std::string& name,
+                     void* user) {
+  const auto& folder = *static_cast<const fs::path*>(user);
+  try {
+    const std::string bytes = read_file(inside_folder(folder, name), kFileSizeLimit);
+    out->assign(bytes.begin(), bytes.end());
+    return true;
+  } catch (const BakeError& missing) {
+    *error = missing.what();
+    return false;
+  }
+}
+
+/// Images are kept as the bytes they are; nothing is decoded here.
+bool keep_image(tinygltf::Image* image, int, std::string*, std::string*, int, int,
+                const unsigned char* bytes, int size, void*) {
+  image->as_is = true;
+  image->image.assign(bytes, bytes + size);
+  return true;
+}
+
+void parse_model(GltfDocument& document, const std::string& bytes) {
+  fs::path folder = document.file.parent_path();
+  tinygltf::TinyGLTF parser;
+  parser.SetFsCallbacks({file_exists, same_path, read_whole_file, nullptr, &folder});
+  parser.SetImageLoader(keep_image, nullptr);
+  std::string errors, warnings;
+  const auto size = static_cast<unsigned int>(bytes.size());
+  const bool parsed =
+      is_binary(bytes)
+          ? parser.LoadBinaryFromMemory(&document.model, &errors, &warnings,
+                                        reinterpret_cast<const unsigned char*>(bytes.data()), size, "")
+          : parser.LoadASCIIFromString(&document.model, &errors, &warnings, bytes.data(), size, "");
+  if (parsed) return;
+  std::replace(errors.begin(), errors.end(), '\n', ' ');
+  errors.erase(errors.find_last_not_of(' ') + 1);
+  fail_at(document, "", "gltf.invalid", fmt::format("this is no valid glTF: {}", errors),
+          "the Khronos glTF validator lists what is wrong with a file");
+}
+
+}  // namespace
+
+void fail_at(const GltfDocument& document, const std::string& pointer, const std::string& code,
+             const std::string& message, const std::string& hint) {
+  throw BakeError(Problem{Severity::Error, code, {document.file.string(), pointer, 0, 0}, message, hint});
+}
+
+std::string file_of(const GltfFile& file) { return file->file.string(); }
+
+GltfFile open_gltf(const fs::path& file) {
+  auto document = std::make_shared<GltfDocument>();
+  document->file = file;
+  const std::string bytes = read_file(file, kFileSizeLimit);
+  const std::size_t first = bytes.find_first_not_of(" \t\r\n");
+  if (!is_binary(bytes) && (first == std::string::npos || bytes[first] != '{')) {
+    fail_at(*document, "", "gltf.not-gltf", "this is neither a .glb nor the JSON of a .gltf",
+            "sources are glTF 2.0 files; export the mesh as .glb");
+  }
+  document->json = parse_json(is_binary(bytes) ? json_chunk(*document, bytes) : bytes, file.string());
+  check_version(*document);
+  check_required_extensions(*document);
+  check_uris(*document, "buffers");
+  check_uris(*document, "images");
+  check_buffer_lengths(*document);
+  parse_model(*document, bytes);
+  return document;
+}
+
+}  // namespace morphbake

@@ -1,0 +1,26 @@
+#pragma once
+
+// Internal to gltf/: what a GltfFile holds.
+
+#include <tiny_gltf.h>
+
+#include <filesystem>
+#include <string>
+
+#include "morphbake/gltf/gltf_file.h"
+#include "morphbake/json/json.h"
+
+namespace morphbake {
+
+struct GltfDocument {
+  std::filesystem::path file;
+  Json json;              ///< as it stands in the file: what is kept is kept from here
+  tinygltf::Model model;  ///< the same, typed, with the bytes of all buffers
+};
+
+/// @throws BakeError `code` at `pointer` of the glTF's JSON
+[[noreturn]] void fail_at(const GltfDocument& document, const std::string& pointer,
+                          const std::string& code, const std::string& message,
+                          const std::string& hint = {});
+
+}  // namespace morphbake

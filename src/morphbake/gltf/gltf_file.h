@@ -1,0 +1,24 @@
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <string>
+
+namespace morphbake {
+
+/// A glTF file in memory: its JSON, its buffers. Opaque; gltf/ alone looks inside.
+struct GltfDocument;
+
+using GltfFile = std::shared_ptr<const GltfDocument>;
+
+/// Opens a .glb or .gltf file with all its buffers.
+///
+/// Buffer and image URIs must stay inside the file's folder.
+/// @throws BakeError "gltf.not-gltf", "gltf.truncated", "gltf.version", "gltf.invalid", "gltf.outside-folder",
+///         "gltf.unsupported-extension", "gltf.buffer", "json...."
+GltfFile open_gltf(const std::filesystem::path& file);
+
+/// Where the file was read from.
+std::string file_of(const GltfFile& file);
+
+}  // namespace morphbake

@@ -1,0 +1,198 @@
+#include "morphbake/mesh/adjacency.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <numeric>
+#include <unordered_map>
+
+namespace morphbake {
+namespace {
+
+/// A directed triangle side, sortable so that both directions of an edge lie together.
+struct Side {
+  int low, high;
+  bool forward;  ///< runs from low to high
+  int triangle;
+};
+
+std::vector<Side> sorted_sides(const Triangles& triangles) {
+  std::vector<Side> sides;
+  sides.reserve(static_cast<std::size_t>(3 * triangles.rows()));
+  for (int f = 0; f < triangles.rows(); ++f) {
+    for (int k = 0; k < 3; ++k) {
+      const int a = triangles(f, k);
+      const int b = triangles(f, (k + 1) % 3);
+      if (a != b) sides.push_back({std::min(a, b), std::max(a, b), a < b, f});
+    }
+  }
+  std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) {
+    return std::array{a.low, a.high, a.triangle} < std::array{b.low, b.high, b.triangle};
+  });
+  return sides;
+}
+
+/// Calls visit(first, last) for each run of sides that are one edge.
+template <typename Visit>
+void for_each_edge(const std::vector<Side>& sides, const Visit& visit) {
+  for (auto first = sides.begin(); first != sides.end();) {
+    const auto last = std::find_if(first, sides.end(), [&](const Side& side) {
+      return side.low != first->low || side.high != first->high;
+    });
+    visit(first, last);
+    first = last;
+  }
+}
+
+class DisjointSets {
+ public:
+  explicit DisjointSets(std::size_t count) : parent_(count) {
+    std::iota(parent_.begin(), parent_.end(), 0);
+  }
+
+  int find(int item) {
+    while (parent_[static_cast<std::size_t>(item)] != item) {
+      int& parent = parent_[static_cast<std::size_t>(item)];
+      parent = parent_[static_cast<std::size_t>(parent)];
+      item = parent;
+    }
+    return item;
+  }
+
+  void join(int a, int b) { parent_[static_cast<std::size_t>(find(a))] = find(b); }
+
+ private:
+  std::vector<int> parent_;
+};
+
+template <typename T>
+void keep_first(std::vector<T>& list, const T& place, int limit) {
+  if (static_cast<int>(list.size()) < limit) list.push_back(place);
+}
+
+/// Corners around one vertex belong to one fan when triangles connect them edge by edge.
+std::vector<int> find_pinched_vertices(const Connectivity& connectivity, const std::vector<Side>& sides,
+                                       int limit) {
+  const Triangles& triangles = connectivity.triangles;
+  DisjointSets fans(static_cast<std::size_t>(3 * triangles.rows()));
+  const auto corner_of = [&](int f, int vertex) {
+    for (int k = 0; k < 3; ++k) {
+      if (triangles(f, k) == vertex) return 3 * f + k;
+    }
+    return -1;
+  };
+  for_each_edge(sides, [&](auto first, auto last) {
+    for (auto side = first + 1; side < last; ++side) {
+      for (const int vertex : {first->low, first->high}) {
+        fans.join(corner_of(first->triangle, vertex), corner_of(side->triangle, vertex));
+      }
+    }
+  });
+  std::vector<int> fan_of(static_cast<std::size_t>(connectivity.vertex_count), -1);
+  std::vector<int> pinched;
+  for (int corner = 0; corner < 3 * triangles.rows(); ++corner) {
+    const int vertex = triangles(corner / 3, corner % 3);
+    int& fan = fan_of[static_cast<std::size_t>(vertex)];
+    if (fan < 0) fan = fans.find(corner);
+    const bool known = !pinched.empty() && pinched.back() == vertex;
+    if (fan != fans.find(corner) && !known) keep_first(pinched, vertex, limit);
+  }
+  return pinched;
+}
+
+}  // namespace
+
+OneRings one_rings(const Connectivity& connectivity) {
+  OneRings rings;
+  rings.offsets.assign(static_cast<std::size_t>(connectivity.vertex_count) + 1, 0);
+  const std::vector<Side> sides = sorted_sides(connectivity.triangles);
+  std::vector<std::array<int, 2>> edges;
+  for_each_edge(sides, [&](auto first, auto) {
+    edges.push_back({first->low, first->high});
+    edges.push_back({first->high, first->low});
+  });
+  std::sort(edges.begin(), edges.end());
+  rings.neighbours.reserve(edges.size());
+  for (const auto& [from, to] : edges) {
+    ++rings.offsets[static_cast<std::size_t>(from) + 1];
+    rings.neighbours.push_back(to);
+  }
+  std::partial_sum(rings.offsets.begin(), rings.offsets.end(), rings.offsets.begin());
+  return rings;
+}
+
+Components connected_components(const OneRings& rings) {
+  const std::size_t vertex_count = rings.offsets.size() - 1;
+  Components components{std::vector<int>(vertex_count, -1), 0};
+  std::vector<int> stack;
+  for (std::size_t seed = 0; seed < vertex_count; ++seed) {
+    if (components.label[seed] >= 0) continue;
+    const int label = components.count++;
+    components.label[seed] = label;
+    stack.push_back(static_cast<int>(seed));
+    while (!stack.empty()) {
+      const auto vertex = static_cast<std::size_t>(stack.back());
+      stack.pop_back();
+      for (int n = rings.offsets[vertex]; n < rings.offsets[vertex + 1]; ++n) {
+        const int neighbour = rings.neighbours[static_cast<std::size_t>(n)];
+        int& neighbour_label = components.label[static_cast<std::size_t>(neighbour)];
+        if (neighbour_label >= 0) continue;
+        neighbour_label = label;
+        stack.push_back(neighbour);
+      }
+    }
+  }
+  return components;
+}
+
+bool ManifoldDefects::none() const {
+  return degenerate_triangles.empty() && misoriented_triangles.empty() && crowded_edges.empty() &&
+         pinched_vertices.empty() && unused_vertices.empty();
+}
+
+ManifoldDefects find_manifold_defects(const Connectivity& connectivity, int limit) {
+  ManifoldDefects defects;
+  std::vector<bool> used(static_cast<std::size_t>(connectivity.vertex_count), false);
+  for (int f = 0; f < connectivity.triangles.rows(); ++f) {
+    const Eigen::RowVector3i t = connectivity.triangles.row(f);
+    if (t(0) == t(1) || t(1) == t(2) || t(2) == t(0)) keep_first(defects.degenerate_triangles, f, limit);
+    for (int k = 0; k < 3; ++k) used[static_cast<std::size_t>(t(k))] = true;
+  }
+  for (int v = 0; v < connectivity.vertex_count; ++v) {
+    if (!used[static_cast<std::size_t>(v)]) keep_first(defects.unused_vertices, v, limit);
+  }
+  const std::vector<Side> sides = sorted_sides(connectivity.triangles);
+  for_each_edge(sides, [&](auto first, auto last) {
+    if (last - first > 2) {
+      keep_first(defects.crowded_edges, Eigen::Vector2i(first->low, first->high), limit);
+    } else if (last - first == 2 && first->forward == (first + 1)->forward) {
+      keep_first(defects.misoriented_triangles, (first + 1)->triangle, limit);
+    }
+  });
+  if (defects.degenerate_triangles.empty()) {
+    defects.pinched_vertices = find_pinched_vertices(connectivity, sides, limit);
+  }
+  return defects;
+}
+
+int count_boundary_loops(const Connectivity& connectivity) {
+  std::unordered_map<int, int> next;  // along the boundary, from vertex to vertex
+  for_each_edge(sorted_sides(connectivity.triangles), [&](auto first, auto last) {
+    if (last - first != 1) return;
+    const bool forward = first->forward;
+    next[forward ? first->low : first->high] = forward ? first->high : first->low;
+  });
+  int loops = 0;
+  while (!next.empty()) {
+    ++loops;
+    auto step = next.begin();
+    while (step != next.end()) {
+      const int to = step->second;
+      next.erase(step);
+      step = next.find(to);
+    }
+  }
+  return loops;
+}
+
+}  // namespace morphbake

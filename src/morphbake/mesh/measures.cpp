@@ -1,0 +1,29 @@
+#include "morphbake/mesh/measures.h"
+
+#include <cmath>
+
+namespace morphbake {
+
+double bounding_diagonal(const Positions& positions) {
+  if (positions.rows() == 0) return 0;
+  return (positions.colwise().maxCoeff() - positions.colwise().minCoeff()).norm();
+}
+
+Eigen::VectorXd vertex_areas(const Positions& positions, const Triangles& triangles) {
+  Eigen::VectorXd areas = Eigen::VectorXd::Zero(positions.rows());
+  for (int f = 0; f < triangles.rows(); ++f) {
+    const Eigen::RowVector3d a = positions.row(triangles(f, 0));
+    const Eigen::RowVector3d ab = positions.row(triangles(f, 1)) - a;
+    const Eigen::RowVector3d ac = positions.row(triangles(f, 2)) - a;
+    const double third = ab.cross(ac).norm() / 6;
+    for (int k = 0; k < 3; ++k) areas(triangles(f, k)) += third;
+  }
+  return areas;
+}
+
+double largest_distance(const Positions& a, const Positions& b) {
+  if (a.rows() == 0) return 0;
+  return std::sqrt((a - b).rowwise().squaredNorm().maxCoeff());
+}
+
+}  // namespace morphbake

@@ -1,0 +1,18 @@
+#pragma once
+
+#include <vector>
+
+#include "morphbake/mesh/mesh.h"
+
+namespace morphbake {
+
+/// Length of the diagonal of the axis-aligned bounding box; 0 for no points.
+double bounding_diagonal(const Positions& positions);
+
+/// A third of the areas of the adjacent triangles, one a vertex.
+Eigen::VectorXd vertex_areas(const Positions& positions, const Triangles& triangles);
+
+/// The largest distance between equal rows.
+double largest_distance(const Positions& a, const Positions& b);
+
+}  // namespace morphbake

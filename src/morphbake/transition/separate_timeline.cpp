@@ -1,0 +1,190 @@
+#include "morphbake/transition/separate_timeline.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <limits>
+#include <map>
+#include <cmath>
+
+#include "morphbake/diagnostics/problem.h"
+
+namespace morphbake {
+namespace {
+
+constexpr std::size_t kFieldLimit = 256;
+
+using Factors = std::vector<int>;  // rising track indices; empty is the start
+
+/// Whether track `a` has come to its end before track `b` begins to move.
+bool is_done_before(const Track& a, const Track& b) {
+  const double begin = b.ease == Ease::Step ? b.end : b.begin;
+  return a.edit.amount == 1 && a.end <= begin;
+}
+
+/// Amounts that are 1 whenever another factor is not 0 change nothing and are left out.
+Factors reduced(const Factors& factors, const std::vector<Track>& tracks) {
+  Factors kept;
+  for (const int a : factors) {
+    const bool redundant = std::any_of(factors.begin(), factors.end(), [&](int b) {
+      const Track& first = tracks[static_cast<std::size_t>(a)];
+      const Track& second = tracks[static_cast<std::size_t>(b)];
+      // Two that jump at one moment are each done before the other: the later in the list stays.
+      const bool tie = is_done_before(second, first) && b < a;
+      return a != b && is_done_before(first, second) && !tie;
+    });
+    if (!redundant) kept.push_back(a);
+  }
+  return kept;
+}
+
+std::string joined_names(const Factors& factors, const std::vector<Track>& tracks) {
+  std::string name;
+  for (const int track : factors) {
+    if (!name.empty()) name += "+";
+    name += tracks[static_cast<std::size_t>(track)].name;
+  }
+  return name;
+}
+
+/// The fields of all products of amounts so far.
+using Terms = std::map<Factors, Eigen::MatrixXd>;
+
+void add_term(Terms& terms, const Factors& factors, const Eigen::MatrixXd& field) {
+  if ((field.array() == 0).all()) return;
+  const auto [entry, is_new] = terms.try_emplace(factors, field);
+  if (!is_new) entry->second += field;
+}
+
+void check_term_count(const Recipe& recipe, std::size_t count) {
+  if (count <= kFieldLimit) return;
+  throw BakeError(Problem{Severity::Error, "transition.too-many-overlaps",
+                          {recipe.file.string(), "/timeline/tracks", 0, 0},
+                          fmt::format("the tracks overlap in more than {} combinations", kFieldLimit - 1),
+                          "let tracks that share a region follow one another instead of running at once"});
+}
+
+/// Expands T <- (1 - a m) T + a m S track by track, with a(t) kept symbolic and m = 1 - d.
+Terms expand_tracks(const Recipe& recipe, const std::vector<Eigen::VectorXd>& regions,
+                    Eigen::Index vertex_count) {
+  const std::vector<Track>& tracks = recipe.timeline.tracks;
+  const auto shares = [&](const Shares& of) {
+    return Eigen::Map<const Eigen::VectorXd>(of.data(), static_cast<Eigen::Index>(of.size()));
+  };
+  Terms terms;
+  terms[{}] = shares(recipe.timeline.start).replicate(1, vertex_count);
+  for (std::size_t i = 0; i < tracks.size(); ++i) {
+    const Edit& edit = tracks[i].edit;
+    Eigen::RowVectorXd m = Eigen::RowVectorXd::Ones(vertex_count);
+    if (edit.region >= 0) m = 1 - regions[static_cast<std::size_t>(edit.region)].transpose().array();
+    const Terms before = terms;
+    const Factors alone = {static_cast<int>(i)};
+    add_term(terms, alone, shares(edit.to) * m);
+    for (const auto& [factors, field] : before) {
+      Factors product = factors;
+      product.push_back(static_cast<int>(i));
+      add_term(terms, reduced(product, tracks), -(field.array().rowwise() * m.array()).matrix());
+    }
+    check_term_count(recipe, terms.size());
+  }
+  return terms;
+}
+
+SeparableTimeline separate_tracks(const Recipe& recipe, const std::vector<Eigen::VectorXd>& regions,
+                                  Eigen::Index vertex_count) {
+  SeparableTimeline separable;
+  for (auto& [factors, field] : expand_tracks(recipe, regions, vertex_count)) {
+    // Terms that cancelled, as where a track leads to what is there already, move nothing. Rounding of
+    // a sum of shares is at most a few epsilon.
+    if (!factors.empty() && field.cwiseAbs().maxCoeff() < 1e-14) continue;
+    separable.fields.push_back({joined_names(factors, recipe.timeline.tracks), field, factors});
+  }
+  return separable;
+}
+
+SeparableTimeline separate_keys(const Recipe& recipe, const std::vector<Eigen::VectorXd>& regions,
+                                Eigen::Index vertex_count) {
+  const std::vector<Key>& keys = recipe.timeline.keys;
+  const int first = keys.front().state;
+  const auto state = [&](int index) -> const State& { return recipe.states[static_cast<std::size_t>(index)]; };
+  const TransitionState start = state_transition(state(first), regions, vertex_count);
+  SeparableTimeline separable{{{state(first).name, start, {first}}}};
+  for (const Key& key : keys) {
+    const bool known = std::any_of(separable.fields.begin(), separable.fields.end(),
+                                   [&](const TransitionField& field) { return field.factors[0] == key.state; });
+    if (known) continue;
+    const TransitionState T = state_transition(state(key.state), regions, vertex_count);
+    separable.fields.push_back({state(key.state).name, T - start, {key.state}});
+  }
+  return separable;
+}
+
+/// Shares of the two keys around `time`, added up per state.
+Eigen::VectorXd key_coefficients(const Timeline& timeline, const SeparableTimeline& separable, double time,
+                                 bool before) {
+  const std::vector<Key>& keys = timeline.keys;
+  Eigen::VectorXd phi = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(separable.fields.size()));
+  const auto add = [&](const Key& key, double share) {
+    for (std::size_t k = 1; k < separable.fields.size(); ++k) {
+      if (separable.fields[k].factors[0] == key.state) phi(static_cast<Eigen::Index>(k)) += share;
+    }
+  };
+  std::size_t next = 0;
+  while (next < keys.size() && (before ? keys[next].time < time : keys[next].time <= time)) ++next;
+  if (next == 0 || next == keys.size()) {
+    add(next == 0 ? keys.front() : keys.back(), 1);
+  } else {
+    const Key& last = keys[next - 1];
+    const double u = (time - last.time) / (keys[next].time - last.time);
+    const bool holds = before && keys[next].ease == Ease::Step;
+    const double share = holds ? 0 : eased(keys[next].ease, u);
+    add(last, 1 - share);
+    add(keys[next], share);
+  }
+  phi(0) = 1;
+  return phi;
+}
+
+double track_amount_before(const Track& track, double time) {
+  const bool jumps = track.ease == Ease::Step || track.begin == track.end;
+  if (jumps) return time > track.end ? track.edit.amount : 0;
+  return track_amount(track, time);
+}
+
+Eigen::VectorXd track_coefficients(const Timeline& timeline, const SeparableTimeline& separable, double time,
+                                   bool before) {
+  Eigen::VectorXd phi = Eigen::VectorXd::Ones(static_cast<Eigen::Index>(separable.fields.size()));
+  for (std::size_t k = 1; k < separable.fields.size(); ++k) {
+    for (const int track : separable.fields[k].factors) {
+      const Track& factor = timeline.tracks[static_cast<std::size_t>(track)];
+      phi(static_cast<Eigen::Index>(k)) *=
+          before ? track_amount_before(factor, time) : track_amount(factor, time);
+    }
+  }
+  return phi;
+}
+
+Eigen::VectorXd coefficients(const Timeline& timeline, const SeparableTimeline& separable, double time,
+                             bool before) {
+  return timeline.keys.empty() ? track_coefficients(timeline, separable, time, before)
+                               : key_coefficients(timeline, separable, time, before);
+}
+
+}  // namespace
+
+SeparableTimeline separate_timeline(const Recipe& recipe, const std::vector<Eigen::VectorXd>& regions,
+                                    Eigen::Index vertex_count) {
+  return recipe.timeline.keys.empty() ? separate_tracks(recipe, regions, vertex_count)
+                                      : separate_keys(recipe, regions, vertex_count);
+}
+
+Eigen::VectorXd field_coefficients(const Timeline& timeline, const SeparableTimeline& separable, double time) {
+  return coefficients(timeline, separable, time, false);
+}
+
+Eigen::VectorXd field_coefficients_before(const Timeline& timeline, const SeparableTimeline& separable,
+                                          double time) {
+  return coefficients(timeline, separable, time, true);
+}
+
+}  // namespace morphbake

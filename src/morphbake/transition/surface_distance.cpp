@@ -1,0 +1,183 @@
+#include "morphbake/transition/surface_distance.h"
+
+#include <CGAL/AABB_face_graph_triangle_primitive.h>
+#include <CGAL/AABB_traits.h>
+#include <CGAL/AABB_tree.h>
+#include <CGAL/Heat_method_3/Surface_mesh_geodesic_distances_3.h>
+#include <CGAL/Polygon_mesh_processing/locate.h>
+#include <CGAL/Simple_cartesian.h>
+#include <CGAL/Surface_mesh.h>
+#include <CGAL/boost/graph/Euler_operations.h>
+#include <fmt/core.h>
+
+#include <limits>
+
+#include "morphbake/diagnostics/problem.h"
+#include "morphbake/mesh/adjacency.h"
+
+namespace morphbake {
+namespace {
+
+using Kernel = CGAL::Simple_cartesian<double>;
+using Point = Kernel::Point_3;
+using Surface = CGAL::Surface_mesh<Point>;
+using VertexIndex = Surface::Vertex_index;
+
+/// A centre this close to an edge or a vertex, in barycentric coordinates, lies on it: splitting off a
+/// thinner triangle would only add a needle.
+constexpr double kOnEdge = 1e-3;
+
+Surface to_cgal(const Mesh& mesh) {
+  Surface surface;
+  surface.reserve(static_cast<Surface::size_type>(mesh.positions.rows()),
+                  static_cast<Surface::size_type>(3 * mesh.triangles.rows() / 2),
+                  static_cast<Surface::size_type>(mesh.triangles.rows()));
+  for (int v = 0; v < mesh.positions.rows(); ++v) {
+    surface.add_vertex(Point(mesh.positions(v, 0), mesh.positions(v, 1), mesh.positions(v, 2)));
+  }
+  for (int f = 0; f < mesh.triangles.rows(); ++f) {
+    const auto corner = [&](int k) { return VertexIndex(static_cast<unsigned>(mesh.triangles(f, k))); };
+    surface.add_face(corner(0), corner(1), corner(2));
+  }
+  return surface;
+}
+
+Point weighted(const Surface& surface, const std::array<VertexIndex, 3>& corners,
+               const Eigen::Vector3d& weights) {
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (int k = 0; k < 3; ++k) {
+    const Point& p = surface.point(corners[static_cast<std::size_t>(k)]);
+    sum += weights(k) * Eigen::Vector3d(p.x(), p.y(), p.z());
+  }
+  return {sum.x(), sum.y(), sum.z()};
+}
+
+VertexIndex split_edge(Surface& surface, Surface::Halfedge_index edge, const Point& point) {
+  const auto first = CGAL::Euler::split_edge(edge, surface);  // points at the new vertex
+  const VertexIndex vertex = surface.target(first);
+  surface.point(vertex) = point;
+  for (const auto side : {first, surface.opposite(surface.next(first))}) {
+    if (!surface.is_border(side)) {
+      CGAL::Euler::split_face(side, surface.next(surface.next(side)), surface);
+    }
+  }
+  return vertex;
+}
+
+/// Makes a point of the original mesh a vertex of `surface`, whose earlier splits must be elsewhere.
+VertexIndex insert_point(Surface& surface, const Mesh& mesh, const SurfacePoint& at) {
+  std::array<VertexIndex, 3> corners;
+  for (int k = 0; k < 3; ++k) {
+    corners[static_cast<std::size_t>(k)] = VertexIndex(static_cast<unsigned>(mesh.triangles(at.triangle, k)));
+  }
+  int near = 0;  // how many corners have no share to speak of
+  int last_near = 0, last_far = 0;
+  for (int k = 0; k < 3; ++k) {
+    const bool is_near = at.barycentric(k) < kOnEdge;
+    near += is_near;
+    (is_near ? last_near : last_far) = k;
+  }
+  if (near == 2) return corners[static_cast<std::size_t>(last_far)];
+  const Point point = weighted(surface, corners, at.barycentric);
+  if (near == 1) {
+    const VertexIndex a = corners[static_cast<std::size_t>((last_near + 1) % 3)];
+    const VertexIndex b = corners[static_cast<std::size_t>((last_near + 2) % 3)];
+    return split_edge(surface, surface.halfedge(a, b), point);
+  }
+  const auto inside = surface.halfedge(corners[0], corners[1]);
+  const auto spoke = CGAL::Euler::add_center_vertex(inside, surface);
+  surface.point(surface.target(spoke)) = point;
+  return surface.target(spoke);
+}
+
+/// The part of a mesh that is connected with one triangle: the heat method divides by zero elsewhere.
+struct Part {
+  Mesh mesh;
+  std::vector<int> vertex_of_part;  ///< vertex of the part -> vertex of the whole
+};
+
+Part part_of_component(const Mesh& mesh, const Components& components, int label) {
+  Part part;
+  std::vector<int> number(components.label.size(), -1);
+  for (std::size_t v = 0; v < components.label.size(); ++v) {
+    if (components.label[v] != label) continue;
+    number[v] = static_cast<int>(part.vertex_of_part.size());
+    part.vertex_of_part.push_back(static_cast<int>(v));
+  }
+  part.mesh.positions = mesh.positions(part.vertex_of_part, Eigen::all);
+  std::vector<int> kept;
+  for (int f = 0; f < mesh.triangles.rows(); ++f) {
+    if (number[static_cast<std::size_t>(mesh.triangles(f, 0))] >= 0) kept.push_back(f);
+  }
+  part.mesh.triangles = mesh.triangles(kept, Eigen::all);
+  for (int& vertex : part.mesh.triangles.reshaped()) vertex = number[static_cast<std::size_t>(vertex)];
+  return part;
+}
+
+/// Distances from one point on a connected mesh.
+Eigen::VectorXd heat_distances(const Mesh& mesh, const SurfacePoint& centre) {
+  Surface surface = to_cgal(mesh);
+  const VertexIndex source = insert_point(surface, mesh, centre);
+  using Heat = CGAL::Heat_method_3::Surface_mesh_geodesic_distances_3<
+      Surface, CGAL::Heat_method_3::Intrinsic_Delaunay>;
+  Heat heat(surface);
+  heat.add_source(source);
+  auto distance = surface.add_property_map<VertexIndex, double>("v:distance", 0).first;
+  heat.estimate_geodesic_distances(distance);
+  Eigen::VectorXd result(mesh.positions.rows());
+  for (int v = 0; v < result.size(); ++v) result(v) = distance[VertexIndex(static_cast<unsigned>(v))];
+  // The heat method fixes its constant at the least value, which need not be at the centre itself.
+  return (result.array() - distance[source]).max(0);
+}
+
+}  // namespace
+
+SurfacePoint closest_point(const Mesh& mesh, const Eigen::Vector3d& position) {
+  const Surface surface = to_cgal(mesh);
+  using Primitive = CGAL::AABB_face_graph_triangle_primitive<Surface>;
+  using Tree = CGAL::AABB_tree<CGAL::AABB_traits<Kernel, Primitive>>;
+  Tree tree(faces(surface).begin(), faces(surface).end(), surface);
+  const auto [point, face] =
+      tree.closest_point_and_primitive(Point(position.x(), position.y(), position.z()));
+  namespace PMP = CGAL::Polygon_mesh_processing;
+  const auto location = PMP::locate_in_face(point, face, surface);
+  // CGAL counts the corners from the face's halfedge, our triangles from their first vertex.
+  SurfacePoint result{static_cast<int>(face), Eigen::Vector3d::Zero()};
+  const VertexIndex first = surface.source(surface.halfedge(face));
+  for (int k = 0; k < 3; ++k) {
+    if (static_cast<int>(first) != mesh.triangles(result.triangle, k)) continue;
+    for (int c = 0; c < 3; ++c) {
+      result.barycentric((k + c) % 3) = std::max(0.0, location.second[static_cast<std::size_t>(c)]);
+    }
+  }
+  result.barycentric /= result.barycentric.sum();
+  return result;
+}
+
+std::vector<Eigen::VectorXd> geodesic_distances(const Mesh& mesh, const std::vector<SurfacePoint>& centres) {
+  const Components components =
+      connected_components(one_rings({static_cast<int>(mesh.positions.rows()), mesh.triangles}));
+  std::vector<Eigen::VectorXd> distances;
+  for (const SurfacePoint& centre : centres) {
+    const int label = components.label[static_cast<std::size_t>(mesh.triangles(centre.triangle, 0))];
+    const Part part = part_of_component(mesh, components, label);
+    SurfacePoint at = centre;
+    // Triangles keep their order in the part, so the centre's is found by counting.
+    at.triangle = 0;
+    for (int f = 0; f < centre.triangle; ++f) {
+      at.triangle += components.label[static_cast<std::size_t>(mesh.triangles(f, 0))] == label;
+    }
+    const Eigen::VectorXd inside = heat_distances(part.mesh, at);
+    if (!inside.allFinite()) {
+      throw BakeError(Problem{Severity::Error, "transition.distance-failed", {},
+                              "the geodesic distance is not finite: the surface has triangles without area",
+                              "set \"distance\": \"edges\" for the region"});
+    }
+    Eigen::VectorXd& whole = distances.emplace_back(
+        Eigen::VectorXd::Constant(mesh.positions.rows(), std::numeric_limits<double>::infinity()));
+    whole(part.vertex_of_part) = inside;
+  }
+  return distances;
+}
+
+}  // namespace morphbake
