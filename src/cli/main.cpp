@@ -71,7 +71,7 @@ std::string shown_error(const CLI::App& program, const CLI::ParseError& error,
 void add_global_flags(CLI::App& program, GlobalFlags& flags) {
   program.fallthrough();  // global flags may also follow the command
   program.require_subcommand(1);
-  program.set_version_flag("--version", "morphbake " MORPHBAKE_VERSION, "Print the version");
+  program.set_version_flag("--version", version(), "Print the version");
   program.add_option("--log", flags.log, "What goes to stderr: text, or json (an object a line)")
       ->check(CLI::IsMember({"text", "json"}))
       ->capture_default_str();
