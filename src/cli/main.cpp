@@ -1,3 +1,5 @@
+#include <fmt/core.h>
+
 #include <exception>
 #include <new>
 #include <string_view>
@@ -5,6 +7,7 @@
 #include "cli/commands.h"
 #include "cli/exit_code.h"
 #include "cli/interrupt.h"
+#include "morphbake/version.h"
 
 namespace morphbake::cli {
 
@@ -71,7 +74,7 @@ std::string shown_error(const CLI::App& program, const CLI::ParseError& error,
 void add_global_flags(CLI::App& program, GlobalFlags& flags) {
   program.fallthrough();  // global flags may also follow the command
   program.require_subcommand(1);
-  program.set_version_flag("--version", "morphbake " MORPHBAKE_VERSION, "Print the version");
+  program.set_version_flag("--version", version(), "Print the version");
   program.add_option("--log", flags.log, "What goes to stderr: text, or json (an object a line)")
       ->check(CLI::IsMember({"text", "json"}))
       ->capture_default_str();
@@ -91,8 +94,8 @@ void run_program(int argc, char** argv, Terminal& terminal) {
                                          add_preview(program),  add_config(program)};
   try {
     program.parse(argc, argv);
-  } catch (const CLI::CallForVersion& version) {
-    return terminal.result(version.what());
+  } catch (const CLI::CallForVersion&) {
+    return terminal.result(fmt::format("morphbake {}", version()));
   } catch (const CLI::CallForHelp&) {
     return terminal.result(program.help());
   } catch (const CLI::ParseError& error) {
