@@ -1,3 +1,5 @@
+#include <fmt/core.h>
+
 #include <exception>
 #include <new>
 #include <string_view>
@@ -5,6 +7,7 @@
 #include "cli/commands.h"
 #include "cli/exit_code.h"
 #include "cli/interrupt.h"
+#include "morphbake/version.h"
 
 namespace morphbake::cli {
 
@@ -91,8 +94,8 @@ void run_program(int argc, char** argv, Terminal& terminal) {
                                          add_preview(program),  add_config(program)};
   try {
     program.parse(argc, argv);
-  } catch (const CLI::CallForVersion& version) {
-    return terminal.result(version.what());
+  } catch (const CLI::CallForVersion&) {
+    return terminal.result(fmt::format("morphbake {}", version()));
   } catch (const CLI::CallForHelp&) {
     return terminal.result(program.help());
   } catch (const CLI::ParseError& error) {
