@@ -1,0 +1,149 @@
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "morphbake/recipe/read_recipe.h"
+#include "morphbake/recipe/reading.h"
+
+namespace morphbake {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t stem_bytes = 24;  // leaves room for "-to-" and a number
+
+/// A file's stem as a name: no ":" or control characters, short, never empty.
+std::string name_from(const fs::path& file) {
+  std::string name = file.stem().string();
+  std::replace_if(
+      name.begin(), name.end(),
+      [](char letter) {
+        return letter == ':' || letter == '\\' || letter == '\x7f' ||
+               (letter >= '\0' && letter < ' ');
+      },
+      '-');
+  if (name.size() > stem_bytes) {
+    std::size_t end = stem_bytes;
+    // A UTF-8 letter must not be cut.
+    while (end > 0 && (static_cast<unsigned char>(name[end]) & 0xC0U) == 0x80U) --end;
+    name.resize(end);
+  }
+  return name.empty() ? "source" : name;
+}
+
+std::vector<std::string> unique_names(const std::vector<fs::path>& sources) {
+  std::vector<std::string> names;
+  for (const fs::path& source : sources) {
+    const std::string name = name_from(source);
+    std::string unique = name;
+    for (int i = 2; std::find(names.begin(), names.end(), unique) != names.end(); ++i) {
+      unique = fmt::format("{}-{}", name, i);
+    }
+    names.push_back(std::move(unique));
+  }
+  return names;
+}
+
+std::string relative_name(const fs::path& source, const fs::path& recipe_file) {
+  const fs::path folder = fs::absolute(recipe_file).parent_path().lexically_normal();
+  const fs::path file = fs::absolute(source).lexically_normal();
+  const fs::path relative = file.lexically_relative(folder);
+  return (relative.empty() ? file : relative).generic_string();
+}
+
+/// The first landmark of the first source that all sources have, or "".
+std::string common_landmark(const std::vector<fs::path>& sources) {
+  std::vector<std::vector<NamedPosition>> landmarks;
+  for (const fs::path& source : sources) {
+    const fs::path beside = landmarks_beside(source);
+    if (!fs::exists(beside)) return "";
+    landmarks.push_back(read_landmarks(beside, beside.string()));
+  }
+  for (const NamedPosition& each : landmarks.front()) {
+    const bool common = std::all_of(landmarks.begin(), landmarks.end(), [&](const auto& others) {
+      return index_of(others, each.name) >= 0;
+    });
+    if (common) return each.name;
+  }
+  return "";
+}
+
+/// The name of the region outside `landmark`'s.
+std::string rest_name(const std::string& landmark) {
+  return landmark == "rest" ? "others" : "rest";
+}
+
+Json regions_around(const std::string& landmark, const std::string& source) {
+  Json regions;
+  regions[landmark]["ball"] = {{"on", source}, {"at", landmark}, {"inner", 0.05}, {"outer", 0.12}};
+  regions[rest_name(landmark)]["rest_of"] = Json::array({landmark});
+  return regions;
+}
+
+/// The region around the landmark moves first, then the rest; further sources follow as a whole.
+Json tracks_through(const std::vector<std::string>& names, const std::string& landmark) {
+  Json tracks = Json::array();
+  std::string last = names[1];
+  if (landmark.empty()) {
+    tracks.push_back({{"name", names[1]}, {"to", names[1]}, {"begin", 0.5}, {"duration", 2}});
+  } else {
+    last = rest_name(landmark);
+    tracks.push_back({{"region", landmark}, {"to", names[1]}, {"begin", 0.5}, {"end", 1.5}});
+    tracks.push_back(
+        {{"region", last}, {"to", names[1]}, {"begin", {{"after", landmark}}}, {"duration", 1.5}});
+  }
+  for (std::size_t i = 2; i < names.size(); ++i) {
+    const std::string name = "to " + names[i];
+    tracks.push_back({{"name", name},
+                      {"to", names[i]},
+                      {"begin", {{"after", last}, {"delay", 0.5}}},
+                      {"duration", 2}});
+    last = name;
+  }
+  return tracks;
+}
+
+void check_sources(const std::vector<fs::path>& sources) {
+  std::vector<Problem> problems;
+  if (sources.size() < 2) {
+    problems.push_back({Severity::Error,
+                        "recipe.too-few-sources",
+                        {},
+                        "a morph needs two sources or more",
+                        "name two or more glTF files"});
+  }
+  for (const fs::path& source : sources) {
+    if (fs::is_regular_file(source)) continue;
+    problems.push_back({Severity::Error,
+                        "recipe.missing-file",
+                        {source.string(), ""},
+                        "there is no such file",
+                        ""});
+  }
+  if (!problems.empty()) throw BakeError(std::move(problems));
+}
+
+}  // namespace
+
+std::string first_recipe(const std::vector<fs::path>& sources, const fs::path& recipe_file) {
+  check_sources(sources);
+  const std::vector<std::string> names = unique_names(sources);
+  const std::string landmark = common_landmark(sources);
+  Json recipe;
+  recipe["version"] = 1;
+  recipe["name"] = names.front() + "-to-" + names.back();
+  for (std::size_t i = 0; i < sources.size(); ++i) {
+    recipe["sources"][names[i]] = relative_name(sources[i], recipe_file);
+  }
+  if (!landmark.empty()) recipe["regions"] = regions_around(landmark, names[1]);
+  recipe["timeline"] = {{"fps", 30}, {"start", names[0]}};
+  recipe["timeline"]["tracks"] = tracks_through(names, landmark);
+  recipe["outputs"] =
+      Json::array({{{"file", fmt::format("out/{}.glb", recipe["name"].get<std::string>())}}});
+  recipe["preview"] = {{"turntable", {{"size", {512, 512}}, {"frames", 72}}},
+                       {"formats", {"gif", "sheet"}}};
+  return recipe.dump(2) + "\n";
+}
+
+}  // namespace morphbake

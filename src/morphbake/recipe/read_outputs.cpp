@@ -1,0 +1,125 @@
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "morphbake/files/files.h"
+#include "morphbake/recipe/reading.h"
+
+namespace morphbake {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double preview_pixel_limit = 5e8;
+
+/// A whole number; one that is out of range, which the schema has reported, must not overflow.
+int whole_number(const Json& json) {
+  return static_cast<int>(std::clamp(json.get<double>(), 0.0, 1e6));
+}
+
+Still read_still(Reading& reading, const Json& at, const std::string& pointer) {
+  if (at.is_string()) return {state_index(reading, at, pointer)};
+  const double time = at.get<double>();
+  const double duration = reading.recipe.timeline.duration;
+  if (time > duration && duration > 0) {
+    complain(reading, "recipe.out-of-range", pointer,
+             fmt::format("{} s is after the end of the timeline, at {} s", time, duration), "");
+  }
+  return {time};
+}
+
+Output read_output(Reading& reading, const Json& json, const std::string& pointer) {
+  Output output;
+  output.file = inside_folder(reading.folder, json["file"].get<std::string>());
+  if (output.file.empty()) {
+    complain(reading, "recipe.outside-folder", pointer + "/file",
+             fmt::format("{} leaves the recipe's folder", shown(json["file"])),
+             "outputs are written below the recipe's folder; --output-dir chooses another one");
+  }
+  if (json.value("targets", "") == "frames") output.targets = TargetKind::Frames;
+  if (!json.contains("still")) return output;
+  output.still = read_still(reading, json["still"]["at"], pointer + "/still/at");
+  if (json.contains("targets")) {
+    complain(reading, "recipe.conflicting-fields", pointer + "/targets",
+             "\"still\" and \"targets\" exclude each other",
+             "a still is a plain mesh without morph targets: keep one of them");
+  }
+  return output;
+}
+
+bool same_file(const fs::path& a, const fs::path& b) {
+  std::error_code error;
+  if (a.lexically_normal() == b.lexically_normal()) return true;
+  return fs::equivalent(a, b, error) && !error;
+}
+
+std::string output_pointer(std::size_t index) { return child_pointer("/outputs", index) + "/file"; }
+
+}  // namespace
+
+void check_output_files(const Recipe& recipe, std::vector<Problem>& problems) {
+  const auto complain_at = [&](std::size_t i, const char* code, std::string message,
+                               const char* hint) {
+    problems.push_back({Severity::Error,
+                        code,
+                        {recipe.file.string(), output_pointer(i)},
+                        std::move(message),
+                        hint});
+  };
+  for (std::size_t i = 0; i < recipe.outputs.size(); ++i) {
+    const fs::path& file = recipe.outputs[i].file;
+    if (file.empty()) continue;
+    const std::string name = shown(Json(file.filename().string()));
+    for (std::size_t j = 0; j < i; ++j) {
+      if (!same_file(file, recipe.outputs[j].file)) continue;
+      complain_at(i, "recipe.duplicate-output",
+                  fmt::format("{} is written by outputs[{}] as well", name, j),
+                  "give each output a file of its own");
+      break;
+    }
+    for (const SourceRef& source : recipe.sources) {
+      if (!same_file(file, source.file)) continue;
+      complain_at(i, "recipe.overwrites-source",
+                  fmt::format("{} is the file of the source {}", name, shown(Json(source.name))),
+                  "write to another file; sources are never changed");
+    }
+  }
+}
+
+void read_outputs(Reading& reading) {
+  const Json by_default = Json::array({{{"file", reading.recipe.name + ".glb"}}});
+  const Json outputs = reading.document.value("outputs", by_default);
+  for (std::size_t i = 0; i < outputs.size(); ++i) {
+    reading.recipe.outputs.push_back(
+        read_output(reading, outputs[i], child_pointer("/outputs", i)));
+  }
+  check_output_files(reading.recipe, reading.problems);
+}
+
+void read_preview(Reading& reading) {
+  const auto json = reading.document.find("preview");
+  if (json == reading.document.end()) return;
+  PreviewRequest preview;
+  const Json turntable = json->value("turntable", Json::object());
+  if (turntable.contains("size")) {
+    preview.width = whole_number(turntable["size"][0]);
+    preview.height = whole_number(turntable["size"][1]);
+  }
+  if (turntable.contains("frames")) preview.frames = whole_number(turntable["frames"]);
+  for (const Json& format : json->value("formats", Json::array({"gif", "sheet"}))) {
+    preview.formats.push_back(format == "png"   ? PreviewFormat::Png
+                              : format == "gif" ? PreviewFormat::Gif
+                                                : PreviewFormat::Sheet);
+  }
+  const double pixels = 1.0 * preview.width * preview.height * preview.frames;
+  if (pixels > preview_pixel_limit) {
+    complain(reading, "recipe.out-of-range", "/preview/turntable",
+             fmt::format("{} pictures of {} by {} pixels are more than {} million pixels",
+                         preview.frames, preview.width, preview.height, preview_pixel_limit / 1e6),
+             "choose a smaller size or fewer frames");
+  }
+  reading.recipe.preview = std::move(preview);
+}
+
+}  // namespace morphbake

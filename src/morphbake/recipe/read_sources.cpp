@@ -1,0 +1,131 @@
+#include <fmt/core.h>
+
+#include <utility>
+
+#include "morphbake/json/nearest.h"
+#include "morphbake/json/schema.h"
+#include "morphbake/recipe/reading.h"
+
+namespace morphbake {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int listed_files = 10000;
+
+/// Names of the regular files in `folder`.
+std::vector<std::string> files_in(const fs::path& folder) {
+  std::vector<std::string> names;
+  std::error_code error;
+  fs::directory_iterator entry(folder, error);
+  for (int i = 0; !error && entry != fs::directory_iterator() && i < listed_files; ++i) {
+    if (entry->is_regular_file(error)) names.push_back(entry->path().filename().string());
+    entry.increment(error);
+  }
+  return names;
+}
+
+/// Complains unless `file` is a regular file.
+bool check_exists(Reading& reading, const fs::path& file, const Json& as_written,
+                  const std::string& pointer) {
+  std::error_code error;
+  if (fs::is_regular_file(file, error)) return true;
+  if (fs::is_directory(file, error)) {
+    complain(reading, "recipe.missing-file", pointer,
+             fmt::format("{} is a folder, not a file", shown(as_written)), "");
+    return false;
+  }
+  const fs::path folder = file.parent_path();
+  std::string hint = fmt::format("the folder {} does not exist", shown(Json(folder.string())));
+  if (fs::is_directory(folder, error)) {
+    const std::string nearest = nearest_name(file.filename().string(), files_in(folder));
+    hint = nearest.empty() ? "file names start at the recipe's folder"
+                           : fmt::format("did you mean \"{}\"?", nearest);
+  }
+  complain(reading, "recipe.missing-file", pointer,
+           fmt::format("there is no file {}", shown(as_written)), std::move(hint));
+  return false;
+}
+
+fs::path absolute_file(const Reading& reading, const Json& as_written) {
+  return (reading.folder / fs::path(as_written.get<std::string>())).lexically_normal();
+}
+
+std::vector<NamedPosition> landmarks_of(const Json& landmarks) {
+  std::vector<NamedPosition> positions;
+  for (const auto& [name, landmark] : landmarks.items()) {
+    if (name == "$schema") continue;
+    const Json& at = landmark["position"];
+    positions.push_back({name, {at[0].get<double>(), at[1].get<double>(), at[2].get<double>()}});
+  }
+  return positions;
+}
+
+/// The landmarks of a file, or none after its problems were noted.
+std::vector<NamedPosition> try_landmarks(Reading& reading, const fs::path& file,
+                                         const std::string& name) {
+  try {
+    return read_landmarks(file, name);
+  } catch (const BakeError& error) {
+    const auto& found = error.problems();
+    reading.problems.insert(reading.problems.end(), found.begin(), found.end());
+    reading.landmarks_known.back() = false;
+    return {};
+  }
+}
+
+/// What messages call a file that stands as `name` in the recipe.
+std::string beside_recipe(const Reading& reading, const fs::path& name) {
+  return (reading.recipe.file.parent_path() / name).lexically_normal().string();
+}
+
+std::vector<NamedPosition> source_landmarks(Reading& reading, const Json& source,
+                                            const std::string& pointer) {
+  const Json& file = source.is_object() ? source["file"] : source;
+  if (source.is_object() && source.contains("landmarks")) {
+    const Json& landmarks = source["landmarks"];
+    if (landmarks.is_object()) return landmarks_of(landmarks);
+    const fs::path named = absolute_file(reading, landmarks);
+    if (check_exists(reading, named, landmarks, pointer + "/landmarks")) {
+      return try_landmarks(reading, named, beside_recipe(reading, landmarks.get<std::string>()));
+    }
+    reading.landmarks_known.back() = false;
+    return {};
+  }
+  const fs::path beside = landmarks_beside(absolute_file(reading, file));
+  std::error_code error;
+  if (!fs::is_regular_file(beside, error)) return {};
+  return try_landmarks(reading, beside,
+                       beside_recipe(reading, landmarks_beside(file.get<std::string>())));
+}
+
+}  // namespace
+
+fs::path landmarks_beside(const fs::path& source) {
+  fs::path beside = source;
+  return beside.replace_extension(".landmarks.json");
+}
+
+std::vector<NamedPosition> read_landmarks(const fs::path& file, const std::string& name) {
+  const Json document = read_json(file, name);
+  std::vector<Problem> problems =
+      schema_problems(document, shipped_schema("landmarks.schema.json"), {name, ""});
+  if (!problems.empty()) throw BakeError(std::move(problems));
+  return landmarks_of(document);
+}
+
+void read_sources(Reading& reading) {
+  for (const auto& [name, source] : reading.document["sources"].items()) {
+    const std::string pointer = child_pointer("/sources", name);
+    check_name_length(reading, name, pointer);
+    reading.landmarks_known.push_back(true);
+    const bool is_object = source.is_object();
+    const Json& file = is_object ? source["file"] : source;
+    check_exists(reading, absolute_file(reading, file), file,
+                 is_object ? pointer + "/file" : pointer);
+    std::vector<NamedPosition> landmarks = source_landmarks(reading, source, pointer);
+    reading.recipe.sources.push_back({name, absolute_file(reading, file), std::move(landmarks)});
+  }
+}
+
+}  // namespace morphbake

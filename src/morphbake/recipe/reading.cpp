@@ -1,0 +1,91 @@
+#include "morphbake/recipe/reading.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "morphbake/json/nearest.h"
+
+namespace morphbake {
+namespace {
+
+constexpr std::size_t name_bytes = 63;
+constexpr std::size_t hinted_problems = 100;
+constexpr std::size_t listed_cycles = 100;
+
+struct CycleSearch {
+  enum class Mark { New, OnPath, Done };
+
+  const std::vector<std::vector<int>>& edges;
+  std::vector<Mark> marks;
+  std::vector<int> path;
+  std::vector<std::vector<int>> cycles;
+
+  void visit(int node) {
+    marks[node] = Mark::OnPath;
+    path.push_back(node);
+    for (const int next : edges[node]) {
+      if (next < 0 || next >= static_cast<int>(edges.size())) continue;
+      if (marks[next] == Mark::New) visit(next);
+      if (marks[next] == Mark::OnPath && cycles.size() < listed_cycles) {
+        cycles.emplace_back(std::find(path.begin(), path.end(), next), path.end());
+      }
+    }
+    path.pop_back();
+    marks[node] = Mark::Done;
+  }
+};
+
+}  // namespace
+
+void complain(Reading& reading, std::string code, const std::string& pointer, std::string message,
+              std::string hint) {
+  reading.problems.push_back({Severity::Error,
+                              std::move(code),
+                              {reading.recipe.file.string(), pointer},
+                              std::move(message),
+                              std::move(hint)});
+}
+
+void complain_unknown(Reading& reading, const std::vector<std::string>& names,
+                      std::string_view kind, const Json& name, const std::string& pointer) {
+  // Comparing with all names is slow, and nobody reads that many hints.
+  const bool hinted = reading.problems.size() < hinted_problems;
+  complain(reading, "recipe.unknown-name", pointer,
+           fmt::format("there is no {} {}", kind, shown(name)),
+           hinted ? name_hint(name.get<std::string>(), names, fmt::format("{}s", kind)) : "");
+}
+
+void check_name_length(Reading& reading, const std::string& name, const std::string& pointer) {
+  if (name.size() <= name_bytes) return;
+  complain(
+      reading, "recipe.bad-value", pointer,
+      fmt::format("the name {} has {} bytes; at most {} are allowed", shown(Json(name)),
+                  name.size(), name_bytes),
+      "names become names of glTF morph targets, which importers cut; letters beyond ASCII take "
+      "2 to 4 bytes");
+}
+
+int read_region_field(Reading& reading, const Json& parent, const std::string& pointer) {
+  const auto region = parent.find("region");
+  if (region == parent.end()) return -1;
+  return look_up(reading, reading.recipe.regions, "region", *region, pointer + "/region");
+}
+
+Ease ease_of(const Json& name) {
+  if (name == "linear") return Ease::Linear;
+  if (name == "step") return Ease::Step;
+  if (name == "cubic") return Ease::Cubic;
+  return Ease::Smoothstep;
+}
+
+std::vector<std::vector<int>> find_cycles(const std::vector<std::vector<int>>& edges) {
+  CycleSearch search{edges, std::vector(edges.size(), CycleSearch::Mark::New), {}, {}};
+  for (std::size_t node = 0; node < edges.size(); ++node) {
+    if (search.marks[node] == CycleSearch::Mark::New) search.visit(static_cast<int>(node));
+  }
+  return search.cycles;
+}
+
+}  // namespace morphbake

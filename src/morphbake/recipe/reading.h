@@ -1,0 +1,105 @@
+#pragma once
+
+#include <algorithm>
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "morphbake/diagnostics/problem.h"
+#include "morphbake/json/json.h"
+#include "morphbake/recipe/recipe.h"
+
+namespace morphbake {
+
+/// What the parts of read_recipe share while they read one document.
+///
+/// The document has the schema's types and required fields, so the parts only look at what a schema
+/// cannot say: names, sums, order, files. Each goes on after a problem, to find the others as well.
+struct Reading {
+  const Json& document;
+  std::filesystem::path folder;  ///< absolute: where relative names in the recipe start
+  Recipe recipe;                 ///< filled in part by part
+  std::vector<bool>
+      landmarks_known;  ///< one a source: false when its landmark file could not be read
+  std::vector<Problem> problems;
+};
+
+/// Adds an error at `pointer` of the recipe.
+void complain(Reading& reading, std::string code, const std::string& pointer, std::string message,
+              std::string hint);
+
+/// Says that there is no `kind` called `name`, and which there are.
+///
+/// @param kind  in the singular: "region"
+void complain_unknown(Reading& reading, const std::vector<std::string>& names,
+                      std::string_view kind, const Json& name, const std::string& pointer);
+
+/// The names of sources, regions, states, tracks or landmarks, in order.
+template <typename Named>
+std::vector<std::string> names_of(const std::vector<Named>& all) {
+  std::vector<std::string> names;
+  names.reserve(all.size());
+  for (const Named& each : all) names.push_back(each.name);
+  return names;
+}
+
+/// Index of what is called `name`, or -1 without a word.
+template <typename Named>
+int index_of(const std::vector<Named>& all, std::string_view name) {
+  const auto found =
+      std::find_if(all.begin(), all.end(), [&](const Named& each) { return each.name == name; });
+  return found == all.end() ? -1 : static_cast<int>(found - all.begin());
+}
+
+/// Index of what is called `name`, or -1 after a complaint.
+template <typename Named>
+int look_up(Reading& reading, const std::vector<Named>& all, std::string_view kind,
+            const Json& name, const std::string& pointer) {
+  const int index = index_of(all, name.get<std::string>());
+  if (index < 0) complain_unknown(reading, names_of(all), kind, name, pointer);
+  return index;
+}
+
+/// A name as the key of an object: complains when it is longer than importers take (63 bytes).
+void check_name_length(Reading& reading, const std::string& name, const std::string& pointer);
+
+/// A source's name or an object of shares.
+Shares read_shares(Reading& reading, const Json& shares, const std::string& pointer);
+
+/// The region that `parent` names in its field "region", or -1 (the whole surface).
+int read_region_field(Reading& reading, const Json& parent, const std::string& pointer);
+
+Ease ease_of(const Json& name);
+
+/// Index of the state called `name`; a source of that name becomes a state of its own. -1 after a
+/// complaint.
+int state_index(Reading& reading, const Json& name, const std::string& pointer);
+
+/// The cycles of a directed graph, one for each edge that closes one.
+///
+/// @param edges  targets of each node; those out of range are passed over
+/// @return       lists of nodes, each with an edge to the next and the last to the first
+std::vector<std::vector<int>> find_cycles(const std::vector<std::vector<int>>& edges);
+
+void read_sources(Reading& reading);
+void read_regions(Reading& reading);
+void read_states(Reading& reading);
+void read_timeline(Reading& reading);
+void read_outputs(Reading& reading);
+void read_preview(Reading& reading);
+
+/// Complains about outputs with equal files, and about those that would overwrite a source.
+void check_output_files(const Recipe& recipe, std::vector<Problem>& problems);
+
+/// The landmarks of a file as schemas/landmarks.schema.json describes it.
+///
+/// @param name  what messages call the file
+/// @throws BakeError with all problems found
+std::vector<NamedPosition> read_landmarks(const std::filesystem::path& file,
+                                          const std::string& name);
+
+/// <folder>/<stem>.landmarks.json of a source.
+std::filesystem::path landmarks_beside(const std::filesystem::path& source);
+
+}  // namespace morphbake
