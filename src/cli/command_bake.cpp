@@ -50,6 +50,12 @@ std::vector<std::string> summary_lines(const BakeReport& report) {
   return lines;
 }
 
+/// Fails now rather than after the bake when the report cannot be written.
+void check_writable(const std::filesystem::path& file) {
+  PendingOutputs never_committed;
+  never_committed.stage(file, "");
+}
+
 void run_bake(const Arguments& arguments, Terminal& terminal) {
   Recipe recipe = read_recipe(arguments.recipe);
   BakeOptions options = read_options(recipe.options, recipe.file.string(), arguments.settings);
@@ -58,6 +64,7 @@ void run_bake(const Arguments& arguments, Terminal& terminal) {
     recipe = redirect_outputs(std::move(recipe), arguments.output_dir);
   }
   if (arguments.preview == "none") recipe.preview.reset();
+  if (!arguments.report.empty()) check_writable(arguments.report);
 
   const BakeReport report = bake(recipe, options, terminal.observer());
   for (const OutputReport& output : report.outputs) {
