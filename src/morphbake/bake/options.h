@@ -23,7 +23,8 @@ std::string options_to_json(const BakeOptions& options);
 /// @param recipe_options  JSON text of the recipe's "options" object
 /// @param recipe_file     for messages
 /// @param settings        "/basis/easing_tolerance=1e-7" each, from --set
-/// @throws BakeError "options.unknown-field", "options.wrong-type", "options.out-of-range", "options.bad-setting"
+/// @throws BakeError "options.unknown-field", "options.wrong-type", "options.out-of-range",
+/// "options.bad-setting"
 BakeOptions read_options(const std::string& recipe_options, const std::string& recipe_file,
                          const std::vector<std::string>& settings);
 

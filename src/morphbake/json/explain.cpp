@@ -217,6 +217,7 @@ void check_object(Walk& walk, const Place& at) {
 }
 
 void check(Walk& walk, const Place& place) {
+  if (!place.field.target.is_object()) return;  // true, or false, which valijson reports
   Place at = place;
   at.prefix = at.field.target.value("x-problems", at.prefix);
   const Json& target = at.field.target;

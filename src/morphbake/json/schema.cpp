@@ -40,7 +40,10 @@ void put_in_foreign_parts(Json& node) {
   const auto reference = node.is_object() ? node.find("$ref") : node.end();
   if (reference != node.end() && reference->is_string() &&
       !reference->get_ref<const std::string&>().starts_with('#')) {
-    node = foreign_part(reference->get<std::string>());
+    Json part = foreign_part(reference->get<std::string>());
+    node.erase("$ref");
+    part.update(node);  // the description and default that stand beside "$ref"
+    node = std::move(part);
   }
   for (Json& child : node) put_in_foreign_parts(child);
 }

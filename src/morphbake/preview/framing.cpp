@@ -62,12 +62,20 @@ bool all_finite(const std::vector<PosedPrimitive>& poses) {
                      [](const PosedPrimitive& pose) { return pose.positions.allFinite(); });
 }
 
-/// Scene-space bounds of every moment.
+/// Turns and scales into the scene but does not move: the place is taken away anyway, and a far one
+/// would cost all of float's digits.
+Eigen::Affine3d to_scene_axes(const AnimatedMesh& mesh) {
+  Eigen::Affine3d transform = Eigen::Affine3d::Identity();
+  transform.linear() = mesh.to_scene.topLeftCorner<3, 3>();
+  return transform;
+}
+
+/// Bounds of every moment, as to_scene_axes.
 std::vector<Eigen::AlignedBox3d> moment_bounds(const AnimatedMesh& mesh,
                                                const std::vector<LoopMoment>& moments) {
   std::vector<Eigen::AlignedBox3d> bounds(moments.size());
   std::vector<char> finite(moments.size());
-  const Eigen::Affine3d to_scene(mesh.to_scene);
+  const Eigen::Affine3d to_scene = to_scene_axes(mesh);
   tbb::parallel_for(std::size_t{0}, moments.size(), [&](std::size_t i) {
     std::vector<PosedPrimitive> poses;
     pose_mesh(mesh, moments[i].weights, to_scene, poses);
@@ -81,11 +89,10 @@ std::vector<Eigen::AlignedBox3d> moment_bounds(const AnimatedMesh& mesh,
 
 /// Moves the middle of the whole motion to the origin and scales it into the unit sphere.
 Eigen::Affine3d table_transform(const AnimatedMesh& mesh, const Eigen::AlignedBox3d& all) {
-  const Eigen::Affine3d to_scene(mesh.to_scene);
-  if (all.isEmpty()) return to_scene;
+  if (all.isEmpty()) return to_scene_axes(mesh);
   const double radius = all.diagonal().norm() / 2;
   const double scale = radius > 0 ? 1 / radius : 1;
-  return Eigen::Scaling(scale) * Eigen::Translation3d(-all.center()) * to_scene;
+  return Eigen::Scaling(scale) * Eigen::Translation3d(-all.center()) * to_scene_axes(mesh);
 }
 
 using Silhouette = std::vector<Eigen::Vector3d>;  ///< view axes: right, up, towards the camera

@@ -19,6 +19,10 @@ constexpr float kFloorFar = 4.2f;
 constexpr float kFloorContact =
     0.22f;  ///< height at which the floor below is half as bright as afar
 
+/// How the floor hands light on to itself below the subject; what is seen of it is the backdrop's
+/// colour.
+const Eigen::Array3f kFloorColour{0.5f, 0.48f, 0.46f};
+
 /// What a camera ray meets of the subject, seen from the viewer's side.
 struct VisiblePoint {
   Eigen::Vector3f origin;  ///< for further rays: lifted off the surface
@@ -131,7 +135,7 @@ void add_floor(const Scene& scene, const Eigen::Vector3f& direction, std::size_t
   if (direction.y() >= -1e-4f || drop <= 0) return;
   Eigen::Vector3f origin = scene.camera.position + direction * (drop / -direction.y());
   origin.y() = scene.floor;
-  const float away = std::hypot(origin.x(), origin.z());
+  const float away = std::sqrt(origin.x() * origin.x() + origin.z() * origin.z());
   if (away >= kFloorFar) return;
   const float fade = std::clamp((kFloorFar - away) / (kFloorFar - kFloorNear), 0.0f, 1.0f);
   const Eigen::Vector3f up = Eigen::Vector3f::UnitY();
@@ -181,7 +185,8 @@ Eigen::Array3f floor_light(const Scene& scene, const PixelLight& pixel,
   const Eigen::Vector3f up = Eigen::Vector3f::UnitY();
   const Eigen::Array3f key = scene.studio.key_light * key_cosine(scene.studio, up);
   const Eigen::Array3f room = room_irradiance(scene.studio, up);
-  const Eigen::Array3f share = (key * seen.floor_key + room * seen.floor_room) / (key + room);
+  const Eigen::Array3f share =
+      (key * seen.floor_key + room * bounced(seen.floor_room, kFloorColour)) / (key + room);
   return backdrop * (1 - (pixel.floor / misses) * (1 - share));
 }
 

@@ -3,6 +3,7 @@
 #include <embree3/rtcore.h>
 #include <tbb/task_arena.h>
 
+#include <algorithm>
 #include <cstring>
 #include <limits>
 #include <stdexcept>
@@ -11,13 +12,7 @@
 namespace morphbake {
 namespace {
 
-/// The tree's shape decides which of two triangles at the same distance is met, and Embree's
-/// builders let it depend on the number of threads: one thread, always. Neither a thread count in
-/// the device's configuration, which would limit the whole process.
-void commit(RTCScene scene) {
-  tbb::task_arena one_thread(1);
-  one_thread.execute([&] { rtcJoinCommitScene(scene); });
-}
+constexpr float kMargin = 1e-4f;  ///< of the bounds, for rounding; the subject's radius is 1
 
 void set_triangles(RTCGeometry geometry, const TriangleIndices& triangles) {
   const std::size_t count = static_cast<std::size_t>(triangles.rows());
@@ -61,7 +56,7 @@ RayScene::RayScene(const AnimatedMesh& mesh, const std::vector<PosedPrimitive>& 
     embree_->geometries.push_back(geometry);
     rtcReleaseGeometry(geometry);  // the scene keeps it
   }
-  commit(embree_->scene);
+  commit();
   if (rtcGetDeviceError(embree_->device) != RTC_ERROR_NONE) {
     throw std::runtime_error("Embree cannot build its scene");
   }
@@ -69,16 +64,42 @@ RayScene::RayScene(const AnimatedMesh& mesh, const std::vector<PosedPrimitive>& 
 
 RayScene::~RayScene() = default;
 
+void RayScene::commit() {
+  // The tree's shape decides which of two triangles at the same distance is met, and Embree's
+  // builders let it depend on the number of threads: one thread, always. A thread count in the
+  // device's configuration would limit the whole process instead.
+  tbb::task_arena one_thread(1);
+  one_thread.execute([&] { rtcJoinCommitScene(embree_->scene); });
+  RTCBounds bounds;
+  rtcGetSceneBounds(embree_->scene, &bounds);
+  low_ = Eigen::Array3f(bounds.lower_x, bounds.lower_y, bounds.lower_z) - kMargin;
+  high_ = Eigen::Array3f(bounds.upper_x, bounds.upper_y, bounds.upper_z) + kMargin;
+}
+
+bool RayScene::misses_bounds(const Eigen::Vector3f& origin,
+                             const Eigen::Vector3f& direction) const {
+  // Slabs; a zero direction gives infinities of the right sign, or NaN on a slab's face: no miss.
+  float enter = 0, leave = std::numeric_limits<float>::infinity();
+  for (int k = 0; k < 3; ++k) {
+    const float inverse = 1 / direction[k];
+    const float a = (low_[k] - origin[k]) * inverse, b = (high_[k] - origin[k]) * inverse;
+    enter = std::max(enter, std::min(a, b));
+    leave = std::min(leave, std::max(a, b));
+  }
+  return enter > leave;
+}
+
 void RayScene::refit() {
   for (RTCGeometry geometry : embree_->geometries) {
     rtcUpdateGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0);
     rtcCommitGeometry(geometry);
   }
-  commit(embree_->scene);
+  commit();
 }
 
 std::optional<RayHit> RayScene::first_hit(const Eigen::Vector3f& origin,
                                           const Eigen::Vector3f& direction) const {
+  if (misses_bounds(origin, direction)) return std::nullopt;
   RTCIntersectContext context;
   rtcInitIntersectContext(&context);
   context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
@@ -109,6 +130,7 @@ std::optional<RayHit> RayScene::first_hit(const Eigen::Vector3f& origin,
 
 bool RayScene::is_occluded(const Eigen::Vector3f& origin, const Eigen::Vector3f& direction,
                            float far) const {
+  if (misses_bounds(origin, direction)) return false;
   RTCIntersectContext context;
   rtcInitIntersectContext(&context);
   RTCRay ray{

@@ -43,8 +43,15 @@ class RayScene {
                    float far) const;
 
  private:
+  /// Whether the ray comes near the subject at all: most rays of a floor do not, and asking here is
+  /// much cheaper than entering Embree.
+  bool misses_bounds(const Eigen::Vector3f& origin, const Eigen::Vector3f& direction) const;
+  void commit();
+
   struct Embree;
   std::unique_ptr<Embree> embree_;
+  Eigen::Array3f low_ = Eigen::Array3f::Zero();  ///< bounds of the pose, a little enlarged
+  Eigen::Array3f high_ = Eigen::Array3f::Zero();
 };
 
 }  // namespace morphbake

@@ -47,9 +47,8 @@ Eigen::Matrix<float, 9, 3> room_harmonics() {
   return sum.cast<float>();
 }
 
-float lobe(const Eigen::Vector3f& direction, const Eigen::Vector3f& middle, float sharpness) {
-  const float cosine = direction.dot(middle);
-  return cosine > 0 ? std::pow(cosine, sharpness) : 0.0f;
+float facing(const Eigen::Vector3f& direction, const Eigen::Vector3f& light) {
+  return std::max(direction.dot(light), 0.0f);
 }
 
 }  // namespace
@@ -61,7 +60,7 @@ Studio make_studio(const TurntableOptions& options) {
   studio.key_across =
       Eigen::Vector3f::UnitY().cross(studio.key_direction).normalized() * studio.key_radius;
   studio.key_upward = studio.key_direction.cross(studio.key_across);
-  studio.key_light = Eigen::Array3f(1.0f, 0.965f, 0.915f) * 0.86f;
+  studio.key_light = Eigen::Array3f(1.0f, 0.965f, 0.915f) * 0.80f;
   studio.room = room_harmonics();
   for (int k = 0; k < 3; ++k) studio.backdrop[k] = srgb_to_linear(options.background[k]);
   return studio;
@@ -72,11 +71,12 @@ Eigen::Array3f room_radiance(const Eigen::Vector3f& direction) {
   static const Eigen::Vector3f rim = towards(155, 30);
   const float upward = std::max(direction.y(), 0.0f);
   const float downward = std::max(-direction.y(), 0.0f);
-  Eigen::Array3f light = Eigen::Array3f(0.96f, 0.985f, 1.0f) * (0.30f + 0.30f * upward);
-  light += Eigen::Array3f(0.95f, 0.98f, 1.0f) * (0.30f * lobe(direction, fill, 3));
-  light += Eigen::Array3f(1.0f, 0.985f, 0.96f) * (0.75f * lobe(direction, rim, 5));
+  const float f = facing(direction, fill), r = facing(direction, rim);
+  Eigen::Array3f light = Eigen::Array3f(0.96f, 0.985f, 1.0f) * (0.17f + 0.22f * upward);
+  light += Eigen::Array3f(0.95f, 0.98f, 1.0f) * (0.20f * f * f * f);
+  light += Eigen::Array3f(1.0f, 0.985f, 0.96f) * (0.60f * r * r * r * r * r);
   // The lit floor, warm and less bright where it is seen at a flat angle.
-  light += (Eigen::Array3f(0.38f, 0.365f, 0.345f) - light) * std::min(1.0f, 2.5f * downward);
+  light += (Eigen::Array3f(0.26f, 0.245f, 0.225f) - light) * std::min(1.0f, 2.5f * downward);
   return light;
 }
 

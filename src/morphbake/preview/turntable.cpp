@@ -1,9 +1,10 @@
 #include "morphbake/preview/turntable.h"
 
 #include <fmt/core.h>
+#include <tbb/info.h>
 #include <tbb/task_arena.h>
 
-#include <cmath>
+#include <algorithm>
 #include <utility>
 
 #include "morphbake/diagnostics/problem.h"
@@ -45,13 +46,19 @@ void check(const TurntableOptions& options) {
   if (!problems.empty()) throw BakeError(std::move(problems));
 }
 
+/// More threads than cores gain nothing, and TBB complains about them on stderr.
+int thread_count(const TurntableOptions& options) {
+  const int cores = tbb::info::default_concurrency();
+  return options.threads > 0 ? std::min(options.threads, cores) : cores;
+}
+
 }  // namespace
 
 std::vector<Image> render_turntable(const AnimatedMesh& mesh, const TurntableOptions& options,
                                     const Observer& observer) {
   check(options);
   advance(observer, {"preview", 0, options.frames});
-  tbb::task_arena arena(options.threads > 0 ? options.threads : tbb::task_arena::automatic);
+  tbb::task_arena arena(thread_count(options));
   const std::vector<LoopMoment> moments = loop_moments(mesh, options);
   const Framing framing = arena.execute([&] { return frame_motion(mesh, moments, options); });
   const Appearance appearance = make_appearance(mesh);

@@ -10,8 +10,10 @@ namespace morphbake {
 
 /// Reads a recipe and the landmark files that it names; all names resolved, all defaults filled in.
 ///
-/// @throws BakeError with all problems found: "json.syntax", "json.duplicate-key", "recipe.unknown-field",
-///         "recipe.wrong-type", "recipe.out-of-range", "recipe.missing-field", "recipe.unknown-name", ...
+/// @throws BakeError with all problems found: "json.syntax", "json.duplicate-key",
+/// "recipe.unknown-field",
+///         "recipe.wrong-type", "recipe.out-of-range", "recipe.missing-field",
+///         "recipe.unknown-name", ...
 Recipe read_recipe(const std::filesystem::path& file);
 
 /// A copy of `recipe` that writes into `folder`, each output under its own file name.

@@ -42,10 +42,10 @@ Shares read_shares(Reading& reading, const Json& json, const std::string& pointe
     sum += share.get<double>();
   }
   if (known && std::abs(sum - 1) > sum_tolerance) {
-    complain(
-        reading, "recipe.bad-shares", pointer,
-        fmt::format("the shares in {} sum to {:.10g}, not to 1", shown(json), sum),
-        sum < 1 ? fmt::format("{:.10g} is missing", 1 - sum) : fmt::format("{:.10g} is too much", sum - 1));
+    complain(reading, "recipe.bad-shares", pointer,
+             fmt::format("the shares in {} sum to {:.10g}, not to 1", shown(json), sum),
+             sum < 1 ? fmt::format("{:.10g} is missing", 1 - sum)
+                     : fmt::format("{:.10g} is too much", sum - 1));
   }
   return shares;
 }
@@ -64,7 +64,7 @@ int state_index(Reading& reading, const Json& name, const std::string& pointer) 
   for (const State& each : reading.recipe.states) {
     if (index_of(sources, each.name) < 0) names.push_back(each.name);
   }
-  complain_unknown(reading, names, "state or source", name, pointer);
+  complain_unknown(reading, names, "state", name, pointer);
   return -1;
 }
 

@@ -76,12 +76,13 @@ struct State {
 };
 
 struct Key {
-  double time = 0;  ///< seconds
-  int state = 0;    ///< index into Recipe::states
+  double time = 0;           ///< seconds
+  int state = 0;             ///< index into Recipe::states
   Ease ease = Ease::Linear;  ///< of the segment that ends in this key
 };
 
-/// Either keys or tracks. Starts at 0; `duration` is the last key's time or at least the last track's end.
+/// Either keys or tracks. Starts at 0; `duration` is the last key's time or at least the last
+/// track's end.
 struct Timeline {
   double frames_per_second = 30;
   double duration = 0;  ///< seconds, > 0
