@@ -1,6 +1,6 @@
 #pragma once
 
-#include <Eigen/Core>
+#include <array>
 #include <vector>
 
 #include "morphbake/diagnostics/observer.h"
@@ -9,7 +9,7 @@
 
 namespace morphbake {
 
-/// How a turntable looks. Defaults stand in config/preview.json too.
+/// How a turntable looks. Defaults stand in config/bake.json too.
 struct TurntableOptions {
   int width = 512;   ///< pixels, 16 to 4096
   int height = 512;  ///< pixels, 16 to 4096
@@ -31,8 +31,8 @@ struct TurntableOptions {
   /// it) or lies still below the whole motion (jumps are seen).
   bool floor_follows = true;
 
-  Eigen::Vector3f background{0.925f, 0.92f, 0.91f};  ///< sRGB of the backdrop's middle, 0 to 1
-  int threads = 0;                                   ///< 0: all cores. Never changes a pixel.
+  std::array<double, 3> background = {0.925, 0.92, 0.91};  ///< sRGB of the backdrop's middle, 0 to 1
+  int threads = 0;                                         ///< 0: all cores. Never changes a pixel.
 };
 
 /// Renders a loop: the camera orbits while the morph plays to its end and back (or once, when its
