@@ -14,7 +14,7 @@ using Json = nlohmann::ordered_json;
 ///
 /// @param file  what messages call the text
 /// @throws BakeError "json.syntax" with line and column, "json.too-deep" beyond 64 brackets,
-///         "json.too-long" for a string beyond 8192 bytes, "json.duplicate-key" for all repeated
+///         "json.too-long" for a string beyond 1024 bytes, "json.duplicate-key" for all repeated
 ///         fields
 Json parse_json(std::string_view text, const std::string& file);
 

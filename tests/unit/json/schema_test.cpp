@@ -158,6 +158,14 @@ TEST(SchemaProblems, AreCutAtAHundred) {
   EXPECT_EQ(schema_problems(document, schema, {}).size(), problems_limit);
 }
 
+TEST(SchemaProblems, TheLongestStringFitsThePatternMatchersStack) {
+  const std::string longest(1024, 'x');
+  const Json document = parse_json("{\"name\": \"" + longest + "\", \"states\": {\"" + longest +
+                                       "\": {}}, \"outputs\": [{\"file\": \"" + longest + "\"}]}",
+                                   "file.json");
+  EXPECT_EQ(schema_problems(document, shipped_schema("recipe.schema.json"), {}).size(), 7U);
+}
+
 Json instructive_recipe() {
   return parse_json(R"({
     "version": 1, "name": "all", "units": "scene",
