@@ -3,8 +3,13 @@
 # EXPECTED: the exit code, then lines that must each occur on stderr. Nothing may be printed on stdout, no
 # file may be left, and --log json must tell the same as JSON lines.
 . "$(dirname "$0")/testing.sh"
-recipe=$3
 expected=$4
+# Beside the recipe lie two sources, empty: a bad recipe is refused before they are opened.
+mkdir "$scratch/recipes"
+cp "$(dirname "$3")"/*.json "$scratch/recipes"
+touch "$scratch/recipes/a.glb" "$scratch/recipes/b.glb"
+echo '{"nose": {"position": [0, 0, 1]}}' >"$scratch/recipes/a.landmarks.json"
+recipe=$scratch/recipes/$(basename "$3")
 files_beside() { find "$(dirname "$recipe")" ! -type d | sort; }
 
 before=$(files_beside)
