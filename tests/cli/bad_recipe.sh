@@ -14,15 +14,17 @@ files_beside() { find "$(dirname "$recipe")" ! -type d | sort; }
 
 before=$(files_beside)
 code=$(head -n 1 "$expected")
-for log in text json; do
-  run "$code" bake "$recipe" --output-dir "$scratch/out" --log $log
+refused_with() { # text | json
+  run "$code" bake "$recipe" --output-dir "$scratch/out" --log "$1"
   [ -s "$scratch/stdout" ] && wrong "prints on stdout: $(cat "$scratch/stdout")"
   no_file_in "$scratch/out" .
-done
+}
+
+refused_with json
 stderr_is_json_lines
 jq -es 'any(.[]; .severity == "error")' "$scratch/stderr" >/dev/null || wrong "no error in the JSON lines"
 
-run "$code" bake "$recipe" --output-dir "$scratch/out"
+refused_with text
 while IFS= read -r line; do
   [ -z "$line" ] || stderr_has "$line"
 done < <(tail -n +2 "$expected")
