@@ -72,7 +72,7 @@ const set = (path, value) => (gltf) => {
 const cases = {
   'text file': [() => 'solid cube\nendsolid', '[gltf.not-gltf]', 'glTF 2.0'],
   'empty file': [() => '', '[gltf.not-gltf]'],
-  'broken JSON': [() => '{"asset": {"version": "2.0"}', '[json.syntax]'],
+  'broken JSON': [() => '{"asset": {"version": "2.0"}', '[gltf.json-syntax]'],
   'other JSON': [() => '{"name": "x"}', '#/asset/version', '[gltf.not-gltf]'],
   'glTF 1': [set('asset.version', '1.0'), '#/asset/version', '[gltf.version]', '"1.0"'],
   'glb of container version 1': [(g) => glb(g, { version: 1 }), '[gltf.version]'],

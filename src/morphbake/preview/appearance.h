@@ -15,8 +15,7 @@ using MipLevels = std::vector<Image>;
 /// Colours of a mesh's primitives, ready to be looked up.
 struct Appearance {
   std::vector<MipLevels> textures;  ///< one an image of the mesh; empty when no primitive uses it
-  std::vector<Eigen::Array3f>
-      factors;  ///< one a primitive: linear RGB, clay where the file has no colour
+  std::vector<Eigen::Array3f> factors;  ///< one a primitive: linear RGB, clay if it has no colour
 };
 
 /// Decodes the base-colour textures of `mesh`.

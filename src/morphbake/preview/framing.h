@@ -22,8 +22,7 @@ struct Camera {
   Eigen::Vector2f shift = {0, 0};
 };
 
-/// Direction (not of unit length) through a place in the picture: 0, 0 top left to 1, 1 bottom
-/// right.
+/// Direction (not of unit length) through a place in the picture, 0, 0 (top left) to 1, 1.
 Eigen::Vector3f view_direction(const Camera& camera, float x, float y);
 
 /// The camera and where the subject stands, chosen once for a whole loop.
@@ -32,10 +31,9 @@ Eigen::Vector3f view_direction(const Camera& camera, float x, float y);
 /// same pictures as from an orbiting camera that carries its lights along.
 struct Framing {
   Camera camera;
-  Eigen::Affine3d mesh_to_table =
-      Eigen::Affine3d::Identity();  ///< mesh space to the studio at azimuth 0;
-                                    ///< the whole motion fits in the unit sphere
-  std::vector<float> floors;        ///< one a moment: height of the floor in the studio
+  /// Mesh space to the studio at azimuth 0; the whole motion fits in the unit sphere.
+  Eigen::Affine3d mesh_to_table = Eigen::Affine3d::Identity();
+  std::vector<float> floors;  ///< one a moment: height of the floor in the studio
 };
 
 /// Mesh space to the studio when the camera is at `azimuth` (radians).

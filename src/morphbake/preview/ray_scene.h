@@ -14,9 +14,11 @@ namespace morphbake {
 struct RayHit {
   int primitive = 0;
   int triangle = 0;
-  float distance = 0;           ///< in lengths of the ray's direction
-  Eigen::Vector3f barycentric;  ///< of the triangle's three corners, sum 1
-  Eigen::Vector3f face_normal;  ///< not of unit length; by the triangle's winding
+  float distance = 0;  ///< in lengths of the ray's direction
+  /// Of the triangle's three corners, sum 1.
+  Eigen::Vector3f barycentric = Eigen::Vector3f::Zero();
+  /// By the triangle's winding; its length is twice the triangle's area.
+  Eigen::Vector3f face_normal = Eigen::Vector3f::Zero();
 };
 
 /// The posed triangles in a form that rays can be traced through; owns the Embree scene.
@@ -24,8 +26,7 @@ class RayScene {
  public:
   /// @param mesh   gives the triangles
   /// @param poses  one a primitive, with the final number of vertices; must outlive the scene and
-  /// keep
-  ///               their memory, for it is shared
+  ///               keep their memory, for it is shared
   RayScene(const AnimatedMesh& mesh, const std::vector<PosedPrimitive>& poses);
   ~RayScene();
   RayScene(const RayScene&) = delete;

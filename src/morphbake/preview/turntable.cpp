@@ -42,7 +42,9 @@ void check(const TurntableOptions& options) {
   check_range("field_of_view", options.field_of_view, 2, 90, problems);
   check_range("fill", options.fill, 0.6, 0.85, problems);
   check_range("threads", options.threads, 0, 1024, problems);
-  for (int k = 0; k < 3; ++k) check_range("background", options.background[k], 0, 1, problems);
+  for (const double component : options.background) {
+    check_range("background", component, 0, 1, problems);
+  }
   if (!problems.empty()) throw BakeError(std::move(problems));
 }
 
