@@ -34,6 +34,11 @@ constexpr std::array<ModuleExitCode, 22> kExitCodes = {{
     {"output", ExitCode::CannotWrite},
 }};
 
+bool is_json_of_gltf(const Problem& problem) {
+  const std::string_view file = problem.location.file;
+  return problem.code.starts_with("json.") && (file.ends_with(".gltf") || file.ends_with(".glb"));
+}
+
 }  // namespace
 
 ExitCode exit_code_of(std::string_view problem_code) {
@@ -46,7 +51,8 @@ ExitCode exit_code_of(std::string_view problem_code) {
 
 ExitCode exit_code_of(const std::vector<Problem>& problems) {
   for (const Problem& problem : problems) {
-    if (problem.severity == Severity::Error) return exit_code_of(problem.code);
+    if (problem.severity != Severity::Error) continue;
+    return is_json_of_gltf(problem) ? ExitCode::SourceMesh : exit_code_of(problem.code);
   }
   return ExitCode::Bug;
 }

@@ -23,7 +23,8 @@ enum class ExitCode {
 /// @return  Bug for a module that is not known
 ExitCode exit_code_of(std::string_view problem_code);
 
-/// The exit code of the first error among `problems`; warnings do not count.
+/// The exit code of the first error among `problems`; warnings do not count. Broken JSON inside a
+/// glTF file is the source's fault, not the recipe's.
 ExitCode exit_code_of(const std::vector<Problem>& problems);
 
 }  // namespace morphbake::cli

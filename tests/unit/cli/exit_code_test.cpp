@@ -30,6 +30,14 @@ TEST(ExitCode, IsThatOfTheFirstError) {
             ExitCode::SourceMesh);
 }
 
+TEST(ExitCode, OfBrokenJsonInAGltfIsTheSources) {
+  Problem problem = problem_of(Severity::Error, "json.syntax");
+  problem.location.file = "a.gltf";
+  EXPECT_EQ(exit_code_of({problem}), ExitCode::SourceMesh);
+  problem.location.file = "recipe.json";
+  EXPECT_EQ(exit_code_of({problem}), ExitCode::Recipe);
+}
+
 TEST(ExitCode, FollowsTheModule) {
   for (const char* code :
        {"usage.a", "options.a", "landmarks.a", "json.a", "recipe.a", "files.a"}) {
