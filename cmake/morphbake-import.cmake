@@ -20,10 +20,6 @@ function(morphbake_import name header libraries)
 endfunction()
 
 macro(morphbake_import_linked)
-  if(NOT TARGET tinygltf::tinygltf)  # Debian spells it TinyGLTF::TinyGLTF
-    add_library(tinygltf::tinygltf INTERFACE IMPORTED GLOBAL)
-    target_link_libraries(tinygltf::tinygltf INTERFACE TinyGLTF::TinyGLTF)
-  endif()
   morphbake_import(cholmod cholmod.h "cholmod;openblas")
   morphbake_import(openimageio OpenImageIO/imageio.h "OpenImageIO;OpenImageIO_Util")
 endmacro()

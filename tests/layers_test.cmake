@@ -2,9 +2,9 @@
 # cmake -DROOT=<source folder> -DSCRATCH=<folder> -P tests/layers_test.cmake
 cmake_minimum_required(VERSION 3.25)
 file(REMOVE_RECURSE ${SCRATCH})
-file(COPY ${ROOT}/cmake/morphbake-install.cmake DESTINATION ${SCRATCH}/cmake)
 file(WRITE ${SCRATCH}/src/morphbake/CMakeLists.txt
-     "set(MORPHBAKE_MODULES\n    mesh\n    json\n    gltf\n    solve)\n")
+     "set(MORPHBAKE_MODULES\n    mesh\n    json\n    gltf\n    solve)\n"
+     "set(MORPHBAKE_INTERNAL_HEADERS json/.* gltf/document.h)\n")
 
 function(run_layers result output)
   execute_process(COMMAND ${CMAKE_COMMAND} -DROOT=${SCRATCH} -P ${ROOT}/tests/layers.cmake

@@ -1,1 +1,158 @@
-int main() { return 0; }
+#include <fmt/core.h>
+
+#include <exception>
+#include <new>
+#include <string_view>
+
+#include "cli/commands.h"
+#include "cli/exit_code.h"
+#include "cli/interrupt.h"
+#include "morphbake/version.h"
+
+namespace morphbake::cli {
+
+namespace {
+
+constexpr const char* kDescription =
+    "Bakes shape morphs into glTF: a recipe names source meshes, regions and timing;\n"
+    "the bake gives the sources one connectivity, blends them region by region and\n"
+    "writes a .glb with morph targets and a weights animation, with turntable previews.";
+
+constexpr const char* kFooter = R"(
+Examples:
+  morphbake init egg.glb giraffe.glb         a first recipe: recipe.json
+  morphbake validate recipe.json             what is wrong with it, all at once
+  morphbake bake recipe.json -o out          the morph; prints the files it wrote
+  morphbake inspect out/morph.glb            targets, sizes, bounds
+  morphbake preview out/morph.glb            turntable of any morph glTF
+  morphbake config                           every option with its default
+
+Results go to stdout, everything else to stderr. NO_COLOR is respected.
+Exit codes: 0 done, 1 bug, 2 usage or recipe, 4 source mesh, 5 numerical,
+            6 cannot write, 130 interrupted
+Documentation: docs/ and examples/ of the source; recipes: schemas/recipe.schema.json)";
+
+struct GlobalFlags {
+  std::string log = "text";
+  bool quiet = false;
+};
+
+/// The command line itself may be wrong, and that too is to be told in the format it asks for.
+LogFormat log_format_of(int argc, char** argv) {
+  for (int i = 1; i < argc; ++i) {
+    const std::string_view argument = argv[i];
+    const bool value_follows = argument == "--log" && i + 1 < argc;
+    if (argument == "--log=json" || (value_follows && argv[i + 1] == std::string_view("json"))) {
+      return LogFormat::Json;
+    }
+  }
+  return LogFormat::Text;
+}
+
+/// The first word of the command line that could be a command; "" without one.
+std::string_view command_word(int argc, char** argv) {
+  for (int i = 1; i < argc; ++i) {
+    const std::string_view argument = argv[i];
+    if (argument == "--log") {
+      ++i;
+    } else if (!argument.empty() && argument.front() != '-') {
+      return argument;
+    }
+  }
+  return "";
+}
+
+/// The message of a command line that CLI11 cannot parse.
+std::string shown_error(const CLI::App& program, const CLI::ParseError& error,
+                        std::string_view command_word) {
+  if (!program.get_subcommands().empty()) return error.what();
+  if (command_word.empty()) return "no command given";
+  return "'" + std::string(command_word) +
+         "' is no command; there are init, bake, validate, inspect, preview, config";
+}
+
+void add_global_flags(CLI::App& program, GlobalFlags& flags) {
+  program.fallthrough();  // global flags may also follow the command
+  program.require_subcommand(1);
+  program.set_version_flag("--version", version(), "Print the version");
+  program.add_option("--log", flags.log, "What goes to stderr: text, or json (an object a line)")
+      ->check(CLI::IsMember({"text", "json"}))
+      ->capture_default_str();
+  program.add_flag("--quiet", flags.quiet, "Only problems on stderr: no progress, no summary");
+  program.footer(kFooter);
+}
+
+/// Reads the command line and runs its command.
+///
+/// @param terminal  is given the settings that the command line asks for
+void run_program(int argc, char** argv, Terminal& terminal) {
+  CLI::App program(kDescription, "morphbake");
+  GlobalFlags flags;
+  add_global_flags(program, flags);
+  const std::vector<Command> commands = {add_init(program),     add_bake(program),
+                                         add_validate(program), add_inspect(program),
+                                         add_preview(program),  add_config(program)};
+  try {
+    program.parse(argc, argv);
+  } catch (const CLI::CallForVersion&) {
+    return terminal.result(fmt::format("morphbake {}", version()));
+  } catch (const CLI::CallForHelp&) {
+    return terminal.result(program.help());
+  } catch (const CLI::ParseError& error) {
+    throw usage_error(shown_error(program, error, command_word(argc, argv)),
+                      "see morphbake --help, or morphbake COMMAND --help");
+  }
+  const LogFormat log = flags.log == "json" ? LogFormat::Json : LogFormat::Text;
+  terminal = Terminal(settings_for_this_process(log, flags.quiet));
+  for (const Command& command : commands) {
+    if (command.parser->parsed()) command.run(terminal);
+  }
+}
+
+ExitCode tell_bug(Terminal& terminal, std::string_view what) {
+  Problem problem;
+  problem.code = "bug.unexpected";
+  problem.message = what;
+  problem.hint = "this is a bug of morphbake: please report it with the recipe and its sources";
+  terminal.problem(problem);
+  return ExitCode::Bug;
+}
+
+ExitCode tell_out_of_memory(Terminal& terminal) {
+  Problem problem;
+  problem.code = "memory.exhausted";
+  problem.message = "not enough memory";
+  problem.hint = "bake smaller meshes, or on a machine with more memory";
+  terminal.problem(problem);
+  return exit_code_of(problem.code);
+}
+
+ExitCode guarded_run(int argc, char** argv, Terminal& terminal) {
+  try {
+    run_program(argc, argv, terminal);
+    terminal.finish();
+    return ExitCode::Done;
+  } catch (const BakeError& error) {
+    for (const Problem& problem : error.problems()) terminal.problem(problem);
+    return exit_code_of(error.problems());
+  } catch (const Cancelled&) {
+    terminal.note("interrupted; nothing was written");
+    return ExitCode::Interrupted;
+  } catch (const std::bad_alloc&) {
+    return tell_out_of_memory(terminal);
+  } catch (const std::exception& error) {
+    return tell_bug(terminal, error.what());
+  } catch (...) {
+    return tell_bug(terminal, "an exception of an unknown type");
+  }
+}
+
+}  // namespace
+}  // namespace morphbake::cli
+
+int main(int argc, char** argv) {
+  using namespace morphbake::cli;
+  catch_interrupts();
+  Terminal terminal(settings_for_this_process(log_format_of(argc, argv), false));
+  return static_cast<int>(guarded_run(argc, argv, terminal));
+}

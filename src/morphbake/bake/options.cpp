@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include <array>
 #include <cmath>
 #include <utility>
 #include <variant>
@@ -16,7 +17,7 @@ namespace {
 template <typename Stage>
 struct Field {
   const char* name;
-  std::variant<int Stage::*, double Stage::*> member;
+  std::variant<int Stage::*, double Stage::*, bool Stage::*, std::array<double, 3> Stage::*> member;
 };
 
 constexpr Field<BasisOptions> basis_fields[] = {
@@ -25,9 +26,14 @@ constexpr Field<BasisOptions> basis_fields[] = {
 
 // Size and number of pictures stand in a recipe's "preview", threads on the command line.
 constexpr Field<TurntableOptions> turntable_fields[] = {
-    {"samples", &TurntableOptions::samples}, {"orbit", &TurntableOptions::orbit},
-    {"azimuth", &TurntableOptions::azimuth}, {"elevation", &TurntableOptions::elevation},
+    {"samples", &TurntableOptions::samples},
+    {"orbit", &TurntableOptions::orbit},
+    {"azimuth", &TurntableOptions::azimuth},
+    {"elevation", &TurntableOptions::elevation},
+    {"field_of_view", &TurntableOptions::field_of_view},
     {"fill", &TurntableOptions::fill},
+    {"floor_follows", &TurntableOptions::floor_follows},
+    {"background", &TurntableOptions::background},
 };
 
 /// Calls `each(stage's name, stage's options, stage's fields)` for every stage: the one list of

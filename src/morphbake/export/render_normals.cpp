@@ -28,8 +28,8 @@ SmoothingGroups find_smoothing_groups(const SourceMesh& first, const MorphableMe
   SmoothingGroups groups;
   const Float3s file_normals = all_file_normals(first);
   if (file_normals.rows() == 0) return groups;
-  using Key = std::array<float, 3>;
-  std::vector<std::map<Key, int>> at_vertex(static_cast<std::size_t>(mesh.connectivity.vertex_count));
+  using NormalBits = std::array<float, 3>;
+  std::vector<std::map<NormalBits, int>> at_vertex(static_cast<std::size_t>(mesh.connectivity.vertex_count));
   std::vector<int> render_of_group;
   groups.of_render.assign(mesh.vertex_of_render.size(), -1);
   for (std::size_t r = 0; r < mesh.vertex_of_render.size(); ++r) {
@@ -37,7 +37,7 @@ SmoothingGroups find_smoothing_groups(const SourceMesh& first, const MorphableMe
     if (vertex < 0) continue;
     const auto row = file_normals.row(static_cast<Eigen::Index>(r));
     const auto [entry, is_new] =
-        at_vertex[static_cast<std::size_t>(vertex)].try_emplace(Key{row(0), row(1), row(2)}, groups.count);
+        at_vertex[static_cast<std::size_t>(vertex)].try_emplace(NormalBits{row(0), row(1), row(2)}, groups.count);
     groups.of_render[r] = entry->second;
     if (!is_new) continue;
     ++groups.count;

@@ -111,7 +111,7 @@ std::vector<std::string> read_target_names(const tinygltf::Mesh& mesh, std::size
   const tinygltf::Value& list = mesh.extras.Get("targetNames");
   if (!list.IsArray()) return names;
   for (std::size_t t = 0; t < std::min(count, list.ArrayLen()); ++t) {
-    const tinygltf::Value& name = list.Get(t);
+    const tinygltf::Value& name = list.Get(static_cast<int>(t));
     if (name.IsString()) names[t] = name.Get<std::string>();
   }
   return names;

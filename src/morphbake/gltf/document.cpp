@@ -69,6 +69,17 @@ std::string percent_decoded(const std::string& uri) {
   return text;
 }
 
+/// Broken JSON in a source is a problem of the source, not of the recipe: "json.syntax" is "gltf.json-syntax".
+Json parse_source_json(const GltfDocument& document, const std::string& text) {
+  try {
+    return parse_json(text, document.file.string());
+  } catch (const BakeError& error) {
+    std::vector<Problem> problems = error.problems();
+    for (Problem& problem : problems) problem.code.replace(0, 5, "gltf.json-");
+    throw BakeError(std::move(problems));
+  }
+}
+
 std::string array_pointer(const char* array, std::size_t index) {
   return fmt::format("/{}/{}", array, index);
 }
@@ -199,7 +210,7 @@ GltfFile open_gltf(const fs::path& file) {
     fail_at(*document, "", "gltf.not-gltf", "this is neither a .glb nor the JSON of a .gltf",
             "sources are glTF 2.0 files; export the mesh as .glb");
   }
-  document->json = parse_json(is_binary(bytes) ? json_chunk(*document, bytes) : bytes, file.string());
+  document->json = parse_source_json(*document, is_binary(bytes) ? json_chunk(*document, bytes) : bytes);
   check_version(*document);
   check_required_extensions(*document);
   check_uris(*document, "buffers");

@@ -74,6 +74,17 @@ PrimitiveGeometry read_primitive(const GltfDocument& document, const tinygltf::P
   return geometry;
 }
 
+/// Morph targets need the same attributes in every primitive, else viewers mix them up.
+void check_normals(const GltfDocument& document, const SourceGeometry& source) {
+  const bool first_has = source.primitives.front().normals.rows() > 0;
+  for (std::size_t p = 1; p < source.primitives.size(); ++p) {
+    if ((source.primitives[p].normals.rows() > 0) == first_has) continue;
+    fail_at(document, primitive_pointer(source.mesh, p) + "/attributes", "gltf.mixed-normals",
+            "some primitives of the mesh have NORMAL and others have not",
+            "export the whole mesh with normals, or all of it without");
+  }
+}
+
 }  // namespace
 
 std::string primitive_pointer(int mesh, std::size_t primitive) {
@@ -96,6 +107,7 @@ SourceGeometry read_source_geometry(const GltfFile& file) {
   if (source.primitives.empty()) {
     fail_at(document, fmt::format("/meshes/{}", at.mesh), "gltf.no-mesh", "the mesh has no primitive");
   }
+  check_normals(document, source);
   return source;
 }
 

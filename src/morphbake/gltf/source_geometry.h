@@ -27,7 +27,8 @@ struct SourceGeometry {
 /// Reads the mesh that a source brings: one node with a mesh, made of indexed triangle primitives.
 ///
 /// @throws BakeError "gltf.no-mesh", "gltf.several-meshes", "gltf.unsupported-primitive",
-///         "gltf.unsupported-skin", "gltf.unsupported-targets", "gltf.singular-transform", "gltf.accessor", ...
+///         "gltf.unsupported-skin", "gltf.unsupported-targets", "gltf.singular-transform", "gltf.mixed-normals",
+///         "gltf.accessor", ...
 SourceGeometry read_source_geometry(const GltfFile& file);
 
 /// JSON pointer of a primitive, for messages.

@@ -19,10 +19,9 @@ struct Image {
 /// (glTF 2.0, 3.8).
 ///
 /// @param name  where the bytes come from, for the error message
-/// @throws BakeError "image.unreadable" (neither PNG nor JPEG, damaged, cut short),
-/// "image.too-large"
-///         (more than 16384 pixels a side), both before any pixel memory is allocated where the
-///         header shows it
+/// @throws BakeError "image.unreadable" (neither PNG nor JPEG, damaged, cut short) or
+///         "image.too-large" (more than 16384 pixels a side), both before any pixel memory is
+///         allocated where the header shows it
 Image decode_image(std::string_view bytes, const std::string& name);
 
 /// PNG bytes of `image`: no time stamp, the same for the same pixels.
@@ -33,9 +32,8 @@ std::string encode_png(const Image& image);
 /// One palette serves the whole loop and the dither pattern stands still, so nothing flickers that
 /// does not move.
 /// @param frames  one or more pictures of one size, at most 65535 pixels a side
-/// @param frames_per_second  above 0, at most 50 (players slow down shorter delays); the delays are
-/// whole
-///         1/100 s that add up to the loop's exact length
+/// @param frames_per_second  above 0, at most 50 (players slow shorter delays down); the delays are
+///         whole hundredths of a second that add up to the loop's length
 /// @throws BakeError "output.unwritable"
 void write_gif(const std::filesystem::path& file, const std::vector<Image>& frames,
                double frames_per_second);

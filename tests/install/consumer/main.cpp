@@ -1,4 +1,5 @@
-// Calls the library from the bottom (a message) to the top (a bake that must refuse a missing recipe).
+// Calls the library from the bottom (a message) to the top (a bake that must refuse a missing
+// recipe).
 #include <cstdio>
 #include <string>
 

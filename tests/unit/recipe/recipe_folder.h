@@ -19,7 +19,7 @@ class RecipeFolder {
     std::filesystem::create_directories(path);
     write("a.glb", "");
     write("b.glb", "");
-    write("a.landmarks.json", R"({"nose": {"position": [0, 0, 1]}})");
+    write("a.landmarks.json", R"({"version": 1, "landmarks": {"nose": {"position": [0, 0, 1]}}})");
   }
 
   RecipeFolder(const RecipeFolder&) = delete;

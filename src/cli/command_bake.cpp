@@ -1,0 +1,110 @@
+#include <fmt/core.h>
+#include <fmt/ranges.h>
+
+#include <filesystem>
+#include <memory>
+
+#include "cli/commands.h"
+#include "morphbake/bake/bake.h"
+#include "morphbake/files/files.h"
+#include "morphbake/recipe/read_recipe.h"
+
+namespace morphbake::cli {
+namespace {
+
+struct Arguments {
+  std::filesystem::path recipe;
+  std::filesystem::path output_dir;
+  std::vector<std::string> settings;
+  std::string preview = "recipe";
+  std::filesystem::path report;
+  int threads = 0;
+};
+
+std::string shown_bytes(std::size_t bytes) {
+  if (bytes < 1000) return fmt::format("{} B", bytes);
+  const double thousands = static_cast<double>(bytes) / 1000;
+  return thousands < 1000 ? fmt::format("{:.1f} kB", thousands)
+                          : fmt::format("{:.1f} MB", thousands / 1000);
+}
+
+std::vector<std::string> summary_lines(const BakeReport& report) {
+  std::vector<std::string> lines;
+  double seconds = 0;
+  for (const StageReport& stage : report.stages) seconds += stage.seconds;
+  lines.push_back(fmt::format(
+      "{}: {} vertices, {} triangles, {} solved shapes, {} frames in {:.2f} s", report.recipe,
+      report.vertices, report.triangles, report.solved_shapes, report.frames, seconds));
+  for (const StageReport& stage : report.stages) {
+    lines.push_back(fmt::format("  {:<14}{:8.2f} s", stage.name, stage.seconds));
+  }
+  for (const OutputReport& output : report.outputs) {
+    lines.push_back(
+        fmt::format("  {}: {}", output.file.filename().string(), shown_bytes(output.bytes)));
+    if (output.targets.empty()) continue;
+    lines.push_back(
+        fmt::format("    {} targets: {}", output.targets.size(), fmt::join(output.targets, ", ")));
+    lines.push_back(fmt::format("    {} keys; error {:.1e} of the diagonal, normals {:.2f} degrees",
+                                output.weight_keys, output.max_error, output.max_normal_error));
+  }
+  return lines;
+}
+
+/// Fails now rather than after the bake when the report cannot be written.
+void check_writable(const std::filesystem::path& file) {
+  PendingOutputs never_committed;
+  never_committed.stage(file, "");
+}
+
+void run_bake(const Arguments& arguments, Terminal& terminal) {
+  Recipe recipe = read_recipe(arguments.recipe);
+  BakeOptions options = read_options(recipe.options, recipe.file.string(), arguments.settings);
+  options.threads = arguments.threads;
+  if (!arguments.output_dir.empty()) {
+    recipe = redirect_outputs(std::move(recipe), arguments.output_dir);
+  }
+  if (arguments.preview == "none") recipe.preview.reset();
+  if (!arguments.report.empty()) check_writable(arguments.report);
+
+  const BakeReport report = bake(recipe, options, terminal.observer());
+  for (const OutputReport& output : report.outputs) {
+    terminal.result(output.file.string());
+    for (const std::filesystem::path& preview : output.previews) terminal.result(preview.string());
+  }
+  if (!arguments.report.empty()) {
+    PendingOutputs outputs;
+    outputs.stage(arguments.report, report_to_json(report));
+    outputs.commit();
+    terminal.result(arguments.report.string());
+  }
+  terminal.report(report_to_json(report), summary_lines(report));
+}
+
+}  // namespace
+
+Command add_bake(CLI::App& program) {
+  auto arguments = std::make_shared<Arguments>();
+  CLI::App* parser = program.add_subcommand("bake", "Bake a recipe; prints the files it wrote");
+  parser->add_option("RECIPE", arguments->recipe, "A recipe (JSON)")->required();
+  parser->add_option("-o,--output-dir", arguments->output_dir,
+                     "Write all files into this folder instead of where the recipe says");
+  parser
+      ->add_option(
+          "--set", arguments->settings,
+          "Override an option by its JSON pointer; may be repeated (names: morphbake config)")
+      ->type_name("/POINTER=VALUE")
+      ->allow_extra_args(false);
+  parser->add_option("--preview", arguments->preview, "`none` leaves the recipe's previews out")
+      ->check(CLI::IsMember({"recipe", "none"}))
+      ->capture_default_str();
+  parser->add_option("--report", arguments->report, "Write what was done as JSON");
+  parser
+      ->add_option("--threads", arguments->threads, "0: all cores; changes the time, never a byte")
+      ->check(CLI::Range(0, 1024))
+      ->capture_default_str();
+  parser->footer(
+      "\nExample: morphbake bake recipe.json --output-dir out --set /basis/easing_tolerance=1e-7");
+  return {parser, [arguments](Terminal& terminal) { run_bake(*arguments, terminal); }};
+}
+
+}  // namespace morphbake::cli

@@ -1,0 +1,50 @@
+#include <fmt/core.h>
+
+#include <filesystem>
+#include <memory>
+
+#include "cli/commands.h"
+#include "morphbake/files/files.h"
+#include "morphbake/recipe/read_recipe.h"
+
+namespace morphbake::cli {
+namespace {
+
+struct Arguments {
+  std::vector<std::filesystem::path> sources;
+  std::filesystem::path recipe = "recipe.json";
+  bool force = false;
+};
+
+void run_init(const Arguments& arguments, Terminal& terminal) {
+  if (!arguments.force && std::filesystem::exists(arguments.recipe)) {
+    Problem problem;
+    problem.code = "usage.would-overwrite";
+    problem.location.file = arguments.recipe.string();
+    problem.message = "the file exists";
+    problem.hint = "choose another name with --output, or overwrite it with --force";
+    throw BakeError(problem);
+  }
+  PendingOutputs outputs;
+  outputs.stage(arguments.recipe, first_recipe(arguments.sources, arguments.recipe));
+  outputs.commit();
+  terminal.result(arguments.recipe.string());
+  terminal.note(fmt::format("next: morphbake bake {}", arguments.recipe.string()));
+}
+
+}  // namespace
+
+Command add_init(CLI::App& program) {
+  auto arguments = std::make_shared<Arguments>();
+  CLI::App* parser = program.add_subcommand("init", "Write a first recipe that bakes");
+  parser->add_option("SOURCES", arguments->sources, "glTF files, in the order of the morph")
+      ->required()
+      ->expected(2, 1000000);
+  parser->add_option("-o,--output", arguments->recipe, "The recipe to write")
+      ->capture_default_str();
+  parser->add_flag("--force", arguments->force, "Overwrite it if it exists");
+  parser->footer("\nExample: morphbake init egg.glb giraffe.glb -o egg-to-giraffe.json");
+  return {parser, [arguments](Terminal& terminal) { run_init(*arguments, terminal); }};
+}
+
+}  // namespace morphbake::cli

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <CLI/App.hpp>
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+#include <functional>
+
+#include "cli/terminal.h"
+
+namespace morphbake::cli {
+
+/// A command of the program: how it is written, and what it does when it was.
+struct Command {
+  CLI::App* parser = nullptr;
+  std::function<void(Terminal&)> run;
+};
+
+Command add_init(CLI::App& program);
+Command add_bake(CLI::App& program);
+Command add_validate(CLI::App& program);
+Command add_inspect(CLI::App& program);
+Command add_preview(CLI::App& program);
+Command add_config(CLI::App& program);
+
+/// The error of a command line that cannot be meant: "usage.bad-argument".
+BakeError usage_error(const std::string& message, const std::string& hint);
+
+}  // namespace morphbake::cli

@@ -1,0 +1,101 @@
+#include "morphbake/basis/morph_basis.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "morphbake/gltf/animated_mesh.h"
+#include "morphbake/mesh/measures.h"
+#include "shapes/shapes.h"
+
+namespace morphbake {
+namespace {
+
+/// One whole-surface track over a sphere that moves by 1 unit.
+struct OneTrack {
+  Timeline timeline;
+  SeparableTimeline separable;
+  SolvedShapes shapes;
+
+  explicit OneTrack(Ease ease, double begin = 0.5, double end = 1.5) {
+    const Mesh mesh = test::sphere(8, 10);
+    timeline.duration = 2;
+    timeline.frames_per_second = 10;
+    timeline.tracks = {{"grow", {-1, {0, 1}, 1}, begin, end, ease}};
+    const Eigen::MatrixXd none = Eigen::MatrixXd::Zero(2, mesh.positions.rows());
+    separable.fields = {{"start", none, {}}, {"grow", none, {0}}};
+    shapes.base = mesh.positions;
+    shapes.names = {"grow"};
+    shapes.displacements = {Positions::Constant(mesh.positions.rows(), 3, 1 / std::sqrt(3.0))};
+  }
+};
+
+double key_error(const OneTrack& track, const MorphBasis& basis) {
+  double error = 0;
+  for (double time = 0; time <= 2; time += 0.00137) {
+    const double exact = field_coefficients(track.timeline, track.separable, time)(1);
+    error = std::max(error, std::abs(interpolate_keys(basis.key_times, basis.key_weights, time)(0) - exact));
+  }
+  return error;
+}
+
+TEST(TrackBasis, KeysFollowTheEasingWithinTheTolerance) {
+  for (const Ease ease : {Ease::Linear, Ease::Smoothstep, Ease::Cubic}) {
+    const OneTrack track(ease);
+    const double diagonal = bounding_diagonal(track.shapes.base);
+    const MorphBasis fine = track_basis(track.shapes, track.separable, track.timeline, {1e-6});
+    const MorphBasis coarse = track_basis(track.shapes, track.separable, track.timeline, {1e-2});
+    EXPECT_LT(key_error(track, fine), 1.5e-6 * diagonal);
+    EXPECT_LT(key_error(track, coarse), 1.5e-2 * diagonal);
+    EXPECT_LE(coarse.key_times.size(), fine.key_times.size());
+  }
+}
+
+TEST(TrackBasis, LinearEasingNeedsOnlyItsCorners) {
+  const OneTrack track(Ease::Linear);
+  const MorphBasis basis = track_basis(track.shapes, track.separable, track.timeline, {});
+  EXPECT_EQ(basis.key_times, (std::vector<float>{0, 0.5F, 1.5F, 2}));
+}
+
+TEST(TrackBasis, AStepTakesOneStepOfTheClock) {
+  const OneTrack track(Ease::Step, 0.25, 1);
+  const MorphBasis basis = track_basis(track.shapes, track.separable, track.timeline, {});
+  const auto jump = std::find(basis.key_times.begin(), basis.key_times.end(), 1.0F);
+  ASSERT_NE(jump, basis.key_times.end());
+  EXPECT_EQ(*(jump - 1), std::nextafter(1.0F, 0.0F));
+  const auto row = jump - basis.key_times.begin();
+  EXPECT_EQ(basis.key_weights(row - 1, 0), 0);
+  EXPECT_EQ(basis.key_weights(row, 0), 1);
+  EXPECT_TRUE(std::is_sorted(basis.key_times.begin(), basis.key_times.end()));
+}
+
+TEST(TrackBasis, NamesAreUniqueAndShortEnough) {
+  OneTrack track(Ease::Linear);
+  const std::string longest(63, 'n');
+  track.shapes.names = {longest + "+a", longest + "+b", "ok"};
+  track.shapes.displacements.resize(3, track.shapes.displacements[0]);
+  track.separable.fields.resize(4, track.separable.fields[1]);
+  const MorphBasis basis = track_basis(track.shapes, track.separable, track.timeline, {});
+  EXPECT_EQ(basis.targets[0].name, longest);
+  EXPECT_EQ(basis.targets[1].name.size(), 63U);
+  EXPECT_NE(basis.targets[0].name, basis.targets[1].name);
+  EXPECT_EQ(basis.targets[2].name, "ok");
+}
+
+TEST(FrameBasis, HoldsEveryFrame) {
+  const OneTrack track(Ease::Smoothstep);
+  const MorphBasis basis = frame_basis(track.shapes, track.separable, track.timeline);
+  const std::vector<double> times = frame_times(track.timeline);
+  ASSERT_EQ(basis.targets.size() + 1, times.size());
+  EXPECT_TRUE(basis.key_weights.row(0).isZero(0));
+  for (const double time : times) {
+    const Positions exact =
+        combine_shapes(track.shapes, field_coefficients(track.timeline, track.separable, time));
+    const auto weights = interpolate_keys(basis.key_times, basis.key_weights, static_cast<float>(time));
+    EXPECT_LT(largest_distance(combine_targets(basis, weights), exact), 1e-6);
+  }
+}
+
+}  // namespace
+}  // namespace morphbake

@@ -1,0 +1,87 @@
+#include "morphbake/transition/surface_distance.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "shapes/shapes.h"
+
+namespace morphbake {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+Eigen::Vector3d point_of(const Mesh& mesh, const SurfacePoint& at) {
+  Eigen::Vector3d point = Eigen::Vector3d::Zero();
+  for (int k = 0; k < 3; ++k) {
+    point += at.barycentric(k) * mesh.positions.row(mesh.triangles(at.triangle, k)).transpose();
+  }
+  return point;
+}
+
+TEST(ClosestPoint, LiesOnTheSurface) {
+  const Mesh mesh = test::grid(9, 9);
+  const SurfacePoint inside = closest_point(mesh, {3.3, 4.1, 2});
+  EXPECT_LT((point_of(mesh, inside) - Eigen::Vector3d(3.3, 4.1, 0)).norm(), 1e-12);
+  const SurfacePoint corner = closest_point(mesh, {-5, -5, 1});
+  EXPECT_LT(point_of(mesh, corner).norm(), 1e-12);
+}
+
+TEST(EdgeDistances, FollowTheEdges) {
+  const Mesh mesh = test::grid(9, 9);  // diagonals run from lower left to upper right
+  const Eigen::VectorXd r = edge_distances(mesh, closest_point(mesh, {4, 4, 0}));
+  EXPECT_NEAR(r(4 * 9 + 4), 0, 1e-12);
+  EXPECT_NEAR(r(4 * 9 + 7), 3, 1e-12);
+  EXPECT_NEAR(r(6 * 9 + 6), 2 * std::sqrt(2.0), 1e-12);
+  EXPECT_NEAR(r(6 * 9 + 2), 4, 1e-12);  // against the diagonals
+}
+
+TEST(EdgeDistances, StartStraightFromAPointInsideATriangle) {
+  const Mesh mesh = test::grid(3, 3);
+  const Eigen::VectorXd r = edge_distances(mesh, closest_point(mesh, {0.6, 0.3, 0}));
+  EXPECT_NEAR(r(0), std::hypot(0.6, 0.3), 1e-12);
+  EXPECT_NEAR(r(1), std::hypot(0.4, 0.3), 1e-12);
+}
+
+TEST(EdgeDistances, OtherComponentsAreUnreachable) {
+  const Mesh mesh = test::joined(test::grid(3, 3), test::sphere(5, 6));
+  EXPECT_EQ(edge_distances(mesh, {0, {1, 0, 0}})(20), kInfinity);
+}
+
+/// Largest error against the straight distance in the plane, relative to the grid's width of 40.
+double plane_error(const Eigen::Vector3d& centre) {
+  const Mesh mesh = test::grid(41, 41);
+  const Eigen::VectorXd r = geodesic_distances(mesh, {closest_point(mesh, centre)}).front();
+  const Eigen::VectorXd exact =
+      (mesh.positions.rowwise() - centre.transpose()).rowwise().norm();
+  return (r - exact).cwiseAbs().maxCoeff() / 40;
+}
+
+// The heat method's error is that of its documentation: some per cent, here of the grid's width.
+TEST(GeodesicDistances, OnAPlane) {
+  EXPECT_LT(plane_error({20, 20, 0}), 0.02);
+  EXPECT_LT(plane_error({17.3, 22.6, 0}), 0.02);   // inside a triangle
+  EXPECT_LT(plane_error({17.5, 22, 0}), 0.02);     // on an edge
+  EXPECT_LT(plane_error({17.5, 0, 0}), 0.03);      // on the boundary
+}
+
+TEST(GeodesicDistances, OnASphereAreArcs) {
+  const Mesh mesh = test::sphere(60, 120);
+  const Eigen::Vector3d centre = Eigen::Vector3d(0.3, 0.5, 0.8).normalized();
+  const Eigen::VectorXd r = geodesic_distances(mesh, {closest_point(mesh, centre)}).front();
+  for (Eigen::Index v = 0; v < r.size(); ++v) {
+    const double arc = std::acos(std::clamp(mesh.positions.row(v).dot(centre), -1.0, 1.0));
+    EXPECT_NEAR(r(v), arc, 0.04 * M_PI);
+  }
+}
+
+TEST(GeodesicDistances, OtherComponentsAreUnreachable) {
+  const Mesh mesh = test::joined(test::grid(9, 9), test::sphere(8, 10));
+  const Eigen::VectorXd r = geodesic_distances(mesh, {closest_point(mesh, {4, 4, 0})}).front();
+  EXPECT_TRUE(r.head(81).allFinite());
+  EXPECT_EQ(r(81), kInfinity);
+}
+
+}  // namespace
+}  // namespace morphbake
