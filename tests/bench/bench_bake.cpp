@@ -19,12 +19,15 @@ const MorphableMesh& sources_of(std::int64_t vertices) {
   if (is_new) {
     const auto side = static_cast<int>(std::sqrt(static_cast<double>(vertices) / 2));
     const Mesh mesh = test::torus(2 * side, side);
-    entry->second = test::morphable(mesh.triangles, {mesh.positions, test::bent(mesh.positions, 0.2, 1)});
+    entry->second =
+        test::morphable(mesh.triangles, {mesh.positions, test::bent(mesh.positions, 0.2, 1)});
   }
   return entry->second;
 }
 
-Mesh mesh_of(const MorphableMesh& mesh) { return {mesh.geometries[0], mesh.connectivity.triangles}; }
+Mesh mesh_of(const MorphableMesh& mesh) {
+  return {mesh.geometries[0], mesh.connectivity.triangles};
+}
 
 void Factorise(benchmark::State& state) {
   const MorphableMesh& mesh = sources_of(state.range(0));

@@ -1,7 +1,5 @@
 // Properties that the solve must have whatever the mesh: Alexa 2003, section 5; docs/method.md.
 
-#include "morphbake/solve/solve_fields.h"
-
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
@@ -12,6 +10,7 @@
 
 #include "morphbake/differential/laplacian.h"
 #include "morphbake/mesh/measures.h"
+#include "morphbake/solve/solve_fields.h"
 #include "shapes/shapes.h"
 
 namespace morphbake {
@@ -36,10 +35,12 @@ TEST(Solve, OneSourceAloneComesBack) {
   const MorphableMesh mesh = three_sources();
   const LaplacianSystem system(mesh);
   for (int s = 0; s < 3; ++s) {
-    const TransitionField field = uniform_field(Eigen::VectorXd::Unit(3, s), mesh.connectivity.vertex_count);
+    const TransitionField field =
+        uniform_field(Eigen::VectorXd::Unit(3, s), mesh.connectivity.vertex_count);
     const TranslationGauge gauge = choose_gauge(mesh, system.components(), {field});
     const Positions solved = system.solve(field.weights, gauge);
-    EXPECT_LT(largest_distance(solved, mesh.geometries[static_cast<std::size_t>(s)]), 1e-9 * diagonal_of(mesh));
+    EXPECT_LT(largest_distance(solved, mesh.geometries[static_cast<std::size_t>(s)]),
+              1e-9 * diagonal_of(mesh));
   }
 }
 
@@ -52,14 +53,16 @@ TEST(Solve, UniformSharesGiveTheLinearBlend) {
   const Positions blend =
       0.2 * mesh.geometries[0] + 0.5 * mesh.geometries[1] + 0.3 * mesh.geometries[2];
   EXPECT_LT(largest_distance(system.solve(field.weights, gauge), blend), 1e-10 * diagonal_of(mesh));
-  EXPECT_LT(largest_distance(system.solve_or_blend(field.weights, gauge), blend), 1e-15 * diagonal_of(mesh));
+  EXPECT_LT(largest_distance(system.solve_or_blend(field.weights, gauge), blend),
+            1e-15 * diagonal_of(mesh));
 }
 
 TEST(Solve, RightHandSideSumsToZeroInEveryComponent) {
   const MorphableMesh mesh = three_sources();
   const LaplacianSystem system(mesh);
   const Eigen::MatrixXd weights = test::random_weights(3, mesh.connectivity.vertex_count, 7);
-  const Positions b = blend_edge_differences(one_rings(mesh.connectivity), mesh.geometries, weights);
+  const Positions b =
+      blend_edge_differences(one_rings(mesh.connectivity), mesh.geometries, weights);
   Positions sums = Positions::Zero(system.components().count, 3);
   for (Eigen::Index v = 0; v < b.rows(); ++v) {
     sums.row(system.components().label[static_cast<std::size_t>(v)]) += b.row(v);
@@ -76,7 +79,8 @@ Positions dense_solution(const MorphableMesh& mesh, const Eigen::MatrixXd& weigh
   Eigen::MatrixXd K_L = Eigen::MatrixXd::Zero(count, count);
   Eigen::MatrixXd b = Eigen::MatrixXd::Zero(count, 3);
   for (int i = 0; i < count; ++i) {
-    for (int n = rings.offsets[static_cast<std::size_t>(i)]; n < rings.offsets[static_cast<std::size_t>(i) + 1]; ++n) {
+    for (int n = rings.offsets[static_cast<std::size_t>(i)];
+         n < rings.offsets[static_cast<std::size_t>(i) + 1]; ++n) {
       const int j = rings.neighbours[static_cast<std::size_t>(n)];
       K_L(i, i) += 1;
       K_L(i, j) -= 1;
@@ -89,12 +93,14 @@ Positions dense_solution(const MorphableMesh& mesh, const Eigen::MatrixXd& weigh
   }
   Eigen::MatrixXd centroid = Eigen::MatrixXd::Zero(1, 3);
   for (std::size_t s = 0; s < mesh.geometries.size(); ++s) {
-    centroid += (gauge.weights.array() * weights.row(static_cast<Eigen::Index>(s)).transpose().array())
-                    .matrix()
-                    .transpose() *
-                mesh.geometries[s];
+    centroid +=
+        (gauge.weights.array() * weights.row(static_cast<Eigen::Index>(s)).transpose().array())
+            .matrix()
+            .transpose() *
+        mesh.geometries[s];
   }
-  // One component: K_L + 1 g^T is regular and keeps solutions of consistent systems, with g^T x known.
+  // One component: K_L + 1 g^T is regular and keeps solutions of consistent systems, with g^T x
+  // known.
   const Eigen::MatrixXd regular = K_L + Eigen::VectorXd::Ones(count) * gauge.weights.transpose();
   return regular.fullPivLu().solve(b + Eigen::VectorXd::Ones(count) * centroid);
 }
@@ -159,22 +165,25 @@ TEST(Solve, CommutesWithRenumbering) {
   std::iota(to.begin(), to.end(), 0);
   std::shuffle(to.begin(), to.end(), std::mt19937(4));
   MorphableMesh renumbered = mesh;
-  for (int& vertex : renumbered.connectivity.triangles.reshaped()) vertex = to[static_cast<std::size_t>(vertex)];
+  for (int& vertex : renumbered.connectivity.triangles.reshaped())
+    vertex = to[static_cast<std::size_t>(vertex)];
   const Eigen::MatrixXd weights = test::random_weights(3, count, 13);
   Eigen::MatrixXd renumbered_weights = weights;
   for (int v = 0; v < count; ++v) {
     const int target = to[static_cast<std::size_t>(v)];
     renumbered_weights.col(target) = weights.col(v);
-    for (std::size_t s = 0; s < 3; ++s) renumbered.geometries[s].row(target) = mesh.geometries[s].row(v);
+    for (std::size_t s = 0; s < 3; ++s)
+      renumbered.geometries[s].row(target) = mesh.geometries[s].row(v);
   }
   const LaplacianSystem system(mesh), renumbered_system(renumbered);
   const Positions a =
       system.solve(weights, choose_gauge(mesh, system.components(), {{"start", weights, {}}}));
   const Positions b = renumbered_system.solve(
-      renumbered_weights,
-      choose_gauge(renumbered, renumbered_system.components(), {{"start", renumbered_weights, {}}}));
+      renumbered_weights, choose_gauge(renumbered, renumbered_system.components(),
+                                       {{"start", renumbered_weights, {}}}));
   for (int v = 0; v < count; ++v) {
-    EXPECT_LT((a.row(v) - b.row(to[static_cast<std::size_t>(v)])).norm(), 1e-10 * diagonal_of(mesh));
+    EXPECT_LT((a.row(v) - b.row(to[static_cast<std::size_t>(v)])).norm(),
+              1e-10 * diagonal_of(mesh));
   }
 }
 

@@ -1,5 +1,5 @@
-// A separable timeline is the timeline: fields times coefficients equal eq. 7 applied in order, and a
-// combination of solved fields equals the solve of every frame.
+// A separable timeline is the timeline: fields times coefficients equal eq. 7 applied in order, and
+// a combination of solved fields equals the solve of every frame.
 
 #include <gtest/gtest.h>
 
@@ -35,7 +35,8 @@ Scene scene() {
   return made;
 }
 
-Track track(const char* name, int region, Shares to, double begin, double end, Ease ease, double amount = 1) {
+Track track(const char* name, int region, Shares to, double begin, double end, Ease ease,
+            double amount = 1) {
   return {name, {region, std::move(to), amount}, begin, end, ease};
 }
 
@@ -56,8 +57,11 @@ Scene keyed_states() {
   made.recipe.states = {{"a", {1, 0, 0}, {}},
                         {"top", {1, 0, 0}, {{0, {0, 1, 0}, 0.7}, {1, {0, 0, 1}, 1}}},
                         {"mix", {0.2, 0.3, 0.5}, {}}};
-  made.recipe.timeline.keys = {
-      {0, 0, Ease::Linear}, {1, 1, Ease::Smoothstep}, {2, 2, Ease::Step}, {3, 0, Ease::Cubic}, {4, 1, Ease::Linear}};
+  made.recipe.timeline.keys = {{0, 0, Ease::Linear},
+                               {1, 1, Ease::Smoothstep},
+                               {2, 2, Ease::Step},
+                               {3, 0, Ease::Cubic},
+                               {4, 1, Ease::Linear}};
   return made;
 }
 
@@ -98,7 +102,8 @@ TEST_P(SeparableTimelines, CombinedShapesEqualSolvingEachFrame) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Timelines, SeparableTimelines, testing::Values(&overlapping_tracks, &keyed_states));
+INSTANTIATE_TEST_SUITE_P(Timelines, SeparableTimelines,
+                         testing::Values(&overlapping_tracks, &keyed_states));
 
 TEST(SeparableTimeline, TracksThatFollowOneAnotherNeedNoProducts) {
   Scene made = scene();

@@ -11,7 +11,8 @@ constexpr double kPi = std::numbers::pi;
 
 Triangles to_triangles(const std::vector<Eigen::Vector3i>& list) {
   Triangles triangles(static_cast<Eigen::Index>(list.size()), 3);
-  for (std::size_t f = 0; f < list.size(); ++f) triangles.row(static_cast<Eigen::Index>(f)) = list[f];
+  for (std::size_t f = 0; f < list.size(); ++f)
+    triangles.row(static_cast<Eigen::Index>(f)) = list[f];
   return triangles;
 }
 
@@ -41,7 +42,8 @@ Mesh sphere(int rings, int segments) {
           std::sin(polar) * std::cos(turn);
       const int next = (s + 1) % segments;
       if (r + 2 < rings) {
-        add_quad(list, r * segments + s, (r + 1) * segments + s, (r + 1) * segments + next, r * segments + next);
+        add_quad(list, r * segments + s, (r + 1) * segments + s, (r + 1) * segments + next,
+                 r * segments + next);
       }
       if (r == 0) list.emplace_back(north, s, next);
       if (r + 2 == rings) list.emplace_back(south, r * segments + next, r * segments + s);
@@ -61,9 +63,11 @@ Mesh torus(int rings, int segments) {
     for (int s = 0; s < segments; ++s) {
       const double v = 2 * kPi * s / segments;
       const double radius = 1 + 0.4 * std::cos(v);
-      mesh.positions.row(r * segments + s) << radius * std::cos(u), 0.4 * std::sin(v), -radius * std::sin(u);
+      mesh.positions.row(r * segments + s) << radius * std::cos(u), 0.4 * std::sin(v),
+          -radius * std::sin(u);
       const int next_r = (r + 1) % rings, next_s = (s + 1) % segments;
-      add_quad(list, r * segments + s, next_r * segments + s, next_r * segments + next_s, r * segments + next_s);
+      add_quad(list, r * segments + s, next_r * segments + s, next_r * segments + next_s,
+               r * segments + next_s);
     }
   }
   mesh.triangles = to_triangles(list);
@@ -112,7 +116,8 @@ MorphableMesh morphable(const Triangles& triangles, const std::vector<Positions>
   MorphableMesh mesh;
   mesh.connectivity = {static_cast<int>(geometries.front().rows()), triangles};
   mesh.geometries = geometries;
-  for (std::size_t s = 0; s < geometries.size(); ++s) mesh.names.emplace_back(1, static_cast<char>('a' + s));
+  for (std::size_t s = 0; s < geometries.size(); ++s)
+    mesh.names.emplace_back(1, static_cast<char>('a' + s));
   return mesh;
 }
 

@@ -51,7 +51,8 @@ BakeReport bake(const Recipe& recipe, const BakeOptions& options, const Observer
   const MorphableMesh mesh = share_connectivity(sources);
   clock.start("transition");
   const std::vector<Eigen::VectorXd> regions = region_distances(mesh, recipe);
-  const SeparableTimeline separable = separate_timeline(recipe, regions, mesh.connectivity.vertex_count);
+  const SeparableTimeline separable =
+      separate_timeline(recipe, regions, mesh.connectivity.vertex_count);
   clock.start("solve");
   const LaplacianSystem system(mesh);
   const TranslationGauge gauge = choose_gauge(mesh, system.components(), separable.fields);
@@ -59,7 +60,8 @@ BakeReport bake(const Recipe& recipe, const BakeOptions& options, const Observer
   clock.start("export");
   const SmoothingGroups groups = find_smoothing_groups(sources.front(), mesh);
   PendingOutputs outputs;
-  const SolvedRecipe solved{recipe, sources.front(), mesh, regions, separable, system, gauge, shapes, groups};
+  const SolvedRecipe solved{recipe, sources.front(), mesh,   regions, separable,
+                            system, gauge,           shapes, groups};
   std::vector<std::filesystem::path> staged(recipe.outputs.size());
   for (std::size_t i = 0; i < recipe.outputs.size(); ++i) {
     bake_report.outputs.push_back(stage_output(solved, i, options, observer, outputs, staged[i]));

@@ -20,7 +20,8 @@ struct OutputReport {
   std::size_t bytes = 0;
   std::vector<std::string> targets;
   int weight_keys = 0;
-  double max_error = 0;         ///< of the written positions at frames and middles, fraction of the diagonal
+  double max_error =
+      0;  ///< of the written positions at frames and middles, fraction of the diagonal
   double max_normal_error = 0;  ///< degrees
   std::vector<std::filesystem::path> previews;
 };
@@ -28,11 +29,11 @@ struct OutputReport {
 /// What a bake did: --report writes it, schemas/report.schema.json describes it.
 struct BakeReport {
   std::string recipe;
-  int vertices = 0;         ///< of the shared connectivity
+  int vertices = 0;  ///< of the shared connectivity
   int triangles = 0;
   int components = 0;
   int frames = 0;
-  int solved_shapes = 0;    ///< right-hand sides that were solved
+  int solved_shapes = 0;  ///< right-hand sides that were solved
   std::vector<StageReport> stages;
   std::vector<OutputReport> outputs;
   std::vector<Problem> problems;  ///< warnings
@@ -52,7 +53,8 @@ void validate(const Recipe& recipe, const Observer& observer);
 
 /// Renders the turntable of any morph glTF.
 ///
-/// @param outputs_stem  "dir/name": writes dir/name.gif, dir/name.sheet.png, dir/name.frames/0000.png
+/// @param outputs_stem  "dir/name": writes dir/name.gif, dir/name.sheet.png,
+/// dir/name.frames/0000.png
 /// @return              the files written
 std::vector<std::filesystem::path> preview(const std::filesystem::path& gltf_file,
                                            const PreviewRequest& request,

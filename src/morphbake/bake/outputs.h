@@ -24,6 +24,7 @@ struct SolvedRecipe {
 ///
 /// @return  its report; `staged` is the temporary file
 OutputReport stage_output(const SolvedRecipe& solved, std::size_t index, const BakeOptions& options,
-                          const Observer& observer, PendingOutputs& outputs, std::filesystem::path& staged);
+                          const Observer& observer, PendingOutputs& outputs,
+                          std::filesystem::path& staged);
 
 }  // namespace morphbake

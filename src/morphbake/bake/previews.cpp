@@ -6,6 +6,7 @@
 
 namespace morphbake {
 namespace fs = std::filesystem;
+
 namespace {
 
 constexpr double kFramesPerSecond = 24;
@@ -17,12 +18,15 @@ std::vector<Image> sheet_pictures(const std::vector<Image>& frames) {
   const int count = std::min(kSheetPictures, static_cast<int>(frames.size()));
   std::vector<Image> chosen;
   for (int i = 0; i < count; ++i) {
-    chosen.push_back(frames[static_cast<std::size_t>(i) * frames.size() / static_cast<std::size_t>(count)]);
+    chosen.push_back(
+        frames[static_cast<std::size_t>(i) * frames.size() / static_cast<std::size_t>(count)]);
   }
   return chosen;
 }
 
-fs::path with_suffix(const fs::path& stem, const std::string& suffix) { return stem.string() + suffix; }
+fs::path with_suffix(const fs::path& stem, const std::string& suffix) {
+  return stem.string() + suffix;
+}
 
 }  // namespace
 
@@ -32,7 +36,8 @@ std::vector<fs::path> stage_previews(const fs::path& gltf_file, const PreviewReq
   options.width = request.width;
   options.height = request.height;
   options.frames = request.frames;
-  const std::vector<Image> frames = render_turntable(read_animated_mesh(gltf_file), options, observer);
+  const std::vector<Image> frames =
+      render_turntable(read_animated_mesh(gltf_file), options, observer);
   std::vector<fs::path> files;
   for (const PreviewFormat format : request.formats) {
     switch (format) {
@@ -48,8 +53,8 @@ std::vector<fs::path> stage_previews(const fs::path& gltf_file, const PreviewReq
         break;
       case PreviewFormat::Sheet:
         files.push_back(with_suffix(stem, ".sheet.png"));
-        outputs.stage(files.back(),
-                      encode_png(contact_sheet(sheet_pictures(frames), kSheetColumns, request.width / 2)));
+        outputs.stage(files.back(), encode_png(contact_sheet(sheet_pictures(frames), kSheetColumns,
+                                                             request.width / 2)));
         break;
     }
   }
@@ -60,7 +65,8 @@ std::vector<fs::path> preview(const fs::path& gltf_file, const PreviewRequest& r
                               const TurntableOptions& options, const fs::path& outputs_stem,
                               const Observer& observer) {
   PendingOutputs outputs;
-  std::vector<fs::path> files = stage_previews(gltf_file, request, options, outputs_stem, observer, outputs);
+  std::vector<fs::path> files =
+      stage_previews(gltf_file, request, options, outputs_stem, observer, outputs);
   outputs.commit();
   return files;
 }

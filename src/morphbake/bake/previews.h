@@ -13,9 +13,8 @@ namespace morphbake {
 /// Renders what `gltf_file` holds and stages stem.gif, stem.sheet.png and stem.frames/0000.png ...
 ///
 /// @return  the final names of the staged files
-std::vector<std::filesystem::path> stage_previews(const std::filesystem::path& gltf_file,
-                                                  const PreviewRequest& request, TurntableOptions options,
-                                                  const std::filesystem::path& stem,
-                                                  const Observer& observer, PendingOutputs& outputs);
+std::vector<std::filesystem::path> stage_previews(
+    const std::filesystem::path& gltf_file, const PreviewRequest& request, TurntableOptions options,
+    const std::filesystem::path& stem, const Observer& observer, PendingOutputs& outputs);
 
 }  // namespace morphbake

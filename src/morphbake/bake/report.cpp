@@ -17,21 +17,21 @@ Json to_json(const Problem& problem) {
 Json to_json(const OutputReport& output) {
   Json previews = Json::array();
   for (const auto& file : output.previews) previews.push_back(file.string());
-  return {{"file", output.file.string()},
-          {"bytes", output.bytes},
-          {"targets", output.targets},
-          {"weight_keys", output.weight_keys},
-          {"max_error", output.max_error},
-          {"max_normal_error", output.max_normal_error},
+  return {{"file", output.file.string()},  {"bytes", output.bytes},
+          {"targets", output.targets},     {"weight_keys", output.weight_keys},
+          {"max_error", output.max_error}, {"max_normal_error", output.max_normal_error},
           {"previews", previews}};
 }
 
 }  // namespace
 
 std::string report_to_json(const BakeReport& report) {
-  Json json = {{"morphbake", version()},           {"recipe", report.recipe},
-               {"vertices", report.vertices},      {"triangles", report.triangles},
-               {"components", report.components},  {"frames", report.frames},
+  Json json = {{"morphbake", version()},
+               {"recipe", report.recipe},
+               {"vertices", report.vertices},
+               {"triangles", report.triangles},
+               {"components", report.components},
+               {"frames", report.frames},
                {"solved_shapes", report.solved_shapes}};
   json["stages"] = Json::array();
   for (const StageReport& stage : report.stages) {

@@ -20,7 +20,8 @@ struct WeightKey {
   Eigen::VectorXd weights;  ///< one a target
 };
 
-/// What keys the weight curves: how far each target moves the surface, and how much of that may be lost.
+/// What keys the weight curves: how far each target moves the surface, and how much of that may be
+/// lost.
 struct CurveTolerance {
   Eigen::VectorXd reach;  ///< largest displacement of each target, scene units
   double distance;        ///< scene units
@@ -28,7 +29,8 @@ struct CurveTolerance {
 
 class WeightCurves {
  public:
-  WeightCurves(const SeparableTimeline& separable, const Timeline& timeline, CurveTolerance tolerance)
+  WeightCurves(const SeparableTimeline& separable, const Timeline& timeline,
+               CurveTolerance tolerance)
       : separable_(separable), timeline_(timeline), tolerance_(std::move(tolerance)) {}
 
   std::vector<WeightKey> keys() {
@@ -94,7 +96,8 @@ class WeightCurves {
 std::string cut_name(const std::string& name, std::size_t limit) {
   std::size_t end = std::min(name.size(), limit);
   // Never inside a UTF-8 character.
-  while (end > 0 && end < name.size() && (static_cast<unsigned char>(name[end]) & 0xC0) == 0x80) --end;
+  while (end > 0 && end < name.size() && (static_cast<unsigned char>(name[end]) & 0xC0) == 0x80)
+    --end;
   return name.substr(0, end);
 }
 
@@ -149,7 +152,8 @@ MorphBasis frame_basis(const SolvedShapes& shapes, const SeparableTimeline& sepa
     Eigen::VectorXd weights = Eigen::VectorXd::Zero(target_count);
     if (f > 0) {
       weights(static_cast<Eigen::Index>(f) - 1) = 1;
-      const Positions frame = combine_shapes(shapes, field_coefficients(timeline, separable, times[f]));
+      const Positions frame =
+          combine_shapes(shapes, field_coefficients(timeline, separable, times[f]));
       basis.targets.push_back({fmt::format("frame-{:04d}", f), frame - basis.base});
     }
     keys.push_back({static_cast<float>(times[f]), weights});

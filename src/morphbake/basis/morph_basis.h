@@ -20,11 +20,12 @@ struct MorphBasis {
   Positions base;  ///< #V by 3, scene space, the first frame
   std::vector<MorphTarget> targets;
   std::vector<float> key_times;  ///< seconds, rising strictly, the first is 0
-  Eigen::MatrixXf key_weights;   ///< #keys by #targets, each in [0, 1], the first row is 0 for `Frames`
+  Eigen::MatrixXf
+      key_weights;  ///< #keys by #targets, each in [0, 1], the first row is 0 for `Frames`
 };
 
-/// One target a solved shape ("nose", "body", and their product where they overlap), whose weights are
-/// the eased amounts, keyed as densely as the tolerance asks for.
+/// One target a solved shape ("nose", "body", and their product where they overlap), whose weights
+/// are the eased amounts, keyed as densely as the tolerance asks for.
 MorphBasis track_basis(const SolvedShapes& shapes, const SeparableTimeline& separable,
                        const Timeline& timeline, const BasisOptions& options);
 

@@ -10,18 +10,21 @@ namespace morphbake {
 
 /// One connectivity K with a geometry V_i a source (Alexa 2003, section 2).
 struct MorphableMesh {
-  Connectivity connectivity;           ///< wound counter-clockwise in scene space
-  std::vector<Positions> geometries;   ///< one a source: #V by 3, scene space
-  std::vector<std::string> names;      ///< one a source
-  std::vector<int> vertex_of_render;   ///< render vertex of the first source -> vertex of K, -1 when no triangle uses it
-  std::vector<int> render_of_corner;   ///< 3 #F: corner 3 f + k of K -> render vertex of the first source
-  int dropped_triangles = 0;           ///< degenerate ones, which take no part in the solve
+  Connectivity connectivity;          ///< wound counter-clockwise in scene space
+  std::vector<Positions> geometries;  ///< one a source: #V by 3, scene space
+  std::vector<std::string> names;     ///< one a source
+  std::vector<int> vertex_of_render;  ///< render vertex of the first source -> vertex of K, -1 when
+                                      ///< no triangle uses it
+  std::vector<int>
+      render_of_corner;       ///< 3 #F: corner 3 f + k of K -> render vertex of the first source
+  int dropped_triangles = 0;  ///< degenerate ones, which take no part in the solve
 };
 
 /// Joins sources that share topology and face order: the paper's K is theirs.
 ///
-/// A vertex of K is a set of triangle corners that lie at one point in *every* source. Sources either
-/// have the same vertex order, or split vertices differently but agree triangle by triangle once welded.
+/// A vertex of K is a set of triangle corners that lie at one point in *every* source. Sources
+/// either have the same vertex order, or split vertices differently but agree triangle by triangle
+/// once welded.
 /// @param sources  one or more
 /// @throws BakeError "connectivity.different-triangles", "connectivity.different-topology",
 ///         "connectivity.not-manifold", "connectivity.empty"

@@ -8,18 +8,19 @@
 
 #include "morphbake/connectivity/morphable_mesh.h"
 #include "morphbake/diagnostics/problem.h"
-#include "morphbake/mesh/adjacency.h"
 #include "morphbake/gltf/gltf_file.h"
+#include "morphbake/mesh/adjacency.h"
 
 namespace morphbake {
 namespace {
 
 constexpr int kPlaces = 3;  // how many places a message names
 
-[[noreturn]] void fail(const SourceMesh& source, const std::string& code, const std::string& message,
-                       const std::string& hint) {
+[[noreturn]] void fail(const SourceMesh& source, const std::string& code,
+                       const std::string& message, const std::string& hint) {
   const std::string pointer = fmt::format("/meshes/{}", source.geometry.mesh);
-  throw BakeError(Problem{Severity::Error, code, {file_of(source.file), pointer, 0, 0}, message, hint});
+  throw BakeError(
+      Problem{Severity::Error, code, {file_of(source.file), pointer, 0, 0}, message, hint});
 }
 
 /// Welded vertex of each triangle corner, corner 3 f + k.
@@ -64,20 +65,22 @@ void check_triangle_counts(const SourceMesh& first, const SourceMesh& other) {
 }
 
 /// The welded surfaces agree when a vertex of one is always the same vertex of the other.
-void check_same_topology(const SourceMesh& first, const SourceMesh& other, const std::vector<int>& corners,
-                         const std::vector<int>& other_corners) {
+void check_same_topology(const SourceMesh& first, const SourceMesh& other,
+                         const std::vector<int>& corners, const std::vector<int>& other_corners) {
   std::map<int, int> there, back;
   std::vector<std::size_t> places;
   for (std::size_t c = 0; c < corners.size() && places.size() < kPlaces; ++c) {
-    const bool agrees = there.try_emplace(corners[c], other_corners[c]).first->second == other_corners[c] &&
-                        back.try_emplace(other_corners[c], corners[c]).first->second == corners[c];
+    const bool agrees =
+        there.try_emplace(corners[c], other_corners[c]).first->second == other_corners[c] &&
+        back.try_emplace(other_corners[c], corners[c]).first->second == corners[c];
     if (!agrees && (places.empty() || places.back() != c / 3)) places.push_back(c / 3);
   }
   if (places.empty()) return;
   fail(other, "connectivity.different-topology",
        fmt::format("\"{}\" and \"{}\" are not connected alike: first at triangles {}", other.name,
                    first.name, fmt::join(places, ", ")),
-       "sources must share one connectivity and face order: poses or sculpts of one mesh, exported alike");
+       "sources must share one connectivity and face order: poses or sculpts of one mesh, exported "
+       "alike");
 }
 
 /// Corner classes that hold in every source.
@@ -97,7 +100,8 @@ std::vector<int> joint_corners(const std::vector<SourceMesh>& sources) {
 
 bool is_degenerate(const int* t) { return t[0] == t[1] || t[1] == t[2] || t[2] == t[0]; }
 
-/// Triangles over corner classes without the degenerate ones; classes that only those used are dropped.
+/// Triangles over corner classes without the degenerate ones; classes that only those used are
+/// dropped.
 Connectivity compact_connectivity(std::vector<int>& corners, int& dropped_triangles) {
   const std::size_t triangle_count = corners.size() / 3;
   std::vector<int> number(corners.size(), -1);  // corner class -> vertex of K
@@ -147,8 +151,8 @@ void check_manifold(const SourceMesh& source, const MorphableMesh& mesh) {
   const Positions& positions = mesh.geometries[0];
   std::vector<std::string> places;
   for (const Eigen::Vector2i& edge : defects.crowded_edges) {
-    places.push_back(fmt::format("edge {} - {} has more than two triangles", place_of(positions, edge(0)),
-                                 place_of(positions, edge(1))));
+    places.push_back(fmt::format("edge {} - {} has more than two triangles",
+                                 place_of(positions, edge(0)), place_of(positions, edge(1))));
   }
   for (const int f : defects.misoriented_triangles) {
     places.push_back(fmt::format("the triangle at {} is turned against its neighbour",
@@ -159,7 +163,8 @@ void check_manifold(const SourceMesh& source, const MorphableMesh& mesh) {
   }
   fail(source, "connectivity.not-manifold",
        fmt::format("the surface is no oriented manifold: {}", fmt::join(places, "; ")),
-       "in Blender: Mesh > Clean Up > Merge by Distance, then Select > All by Trait > Non Manifold shows the places");
+       "in Blender: Mesh > Clean Up > Merge by Distance, then Select > All by Trait > Non Manifold "
+       "shows the places");
 }
 
 }  // namespace
@@ -178,7 +183,8 @@ MorphableMesh share_connectivity(const std::vector<SourceMesh>& sources) {
     mesh.names.push_back(source.name);
     Positions& geometry = mesh.geometries.emplace_back(mesh.connectivity.vertex_count, 3);
     for (std::size_t c = 0; c < corners.size(); ++c) {
-      if (corners[c] >= 0) geometry.row(corners[c]) = source.positions.row(source.triangles.data()[c]);
+      if (corners[c] >= 0)
+        geometry.row(corners[c]) = source.positions.row(source.triangles.data()[c]);
     }
   }
   for (std::size_t c = 0; c < corners.size(); ++c) {

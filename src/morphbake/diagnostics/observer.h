@@ -14,7 +14,8 @@ struct Progress {
   int total = 0;
 };
 
-/// What the caller wants to hear. Every function may be empty; all are called on the calling thread.
+/// What the caller wants to hear. Every function may be empty; all are called on the calling
+/// thread.
 struct Observer {
   std::function<void(const Problem&)> on_problem;  ///< warnings; errors are thrown
   std::function<void(const Progress&)> on_progress;

@@ -20,7 +20,8 @@ struct Location {
 /// One thing that is wrong, and what would be right.
 struct Problem {
   Severity severity = Severity::Error;
-  std::string code;  ///< stable, dotted by module: "recipe.unknown-name"; listed in docs/problems.md
+  std::string
+      code;  ///< stable, dotted by module: "recipe.unknown-name"; listed in docs/problems.md
   Location location;
   std::string message;  ///< what is wrong, with the offending value
   std::string hint;     ///< what would be right; may be empty

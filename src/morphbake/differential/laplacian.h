@@ -14,17 +14,17 @@ namespace morphbake {
 /// @see     Alexa 2003, section 4.1, eq. 2 and 3
 Positions differential_coordinates(const OneRings& rings, const Positions& positions);
 
-/// The symmetric form of the Laplacian, K_L = Deg - A = Deg L: #V by #V, positive semi-definite, with the
-/// constants on each connected component as its null space.
+/// The symmetric form of the Laplacian, K_L = Deg - A = Deg L: #V by #V, positive semi-definite,
+/// with the constants on each connected component as its null space.
 Eigen::SparseMatrix<double> symmetric_laplacian(const OneRings& rings);
 
 /// Right-hand side of K_L V' = b that blends the sources' differences along edges:
 ///
 ///   b_i = sum_j sum_s (T_s,i + T_s,j) / 2 (v_s,i - v_s,j)   over the neighbours j of i
 ///
-/// Each edge adds to one end what it takes from the other, so b sums to 0 over every component and the
-/// system is solvable exactly, for any T; fixing one vertex instead (section 4.3 of the paper) throws the
-/// imbalance into it. For constant T it is Deg times the sum of eq. 6. Linear in T.
+/// Each edge adds to one end what it takes from the other, so b sums to 0 over every component and
+/// the system is solvable exactly, for any T; fixing one vertex instead (section 4.3 of the paper)
+/// throws the imbalance into it. For constant T it is Deg times the sum of eq. 6. Linear in T.
 /// @param geometries  one a source: #V by 3
 /// @param weights     #sources by #V: row s is the diagonal of T_s
 /// @return            b: #V by 3

@@ -15,7 +15,8 @@ double angle_between(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
 }
 
 /// Base plus weighted targets of one attribute, in double from the written floats.
-Positions evaluate(const Float3s& base, const std::vector<Float3s>& targets, const Eigen::VectorXd& weights) {
+Positions evaluate(const Float3s& base, const std::vector<Float3s>& targets,
+                   const Eigen::VectorXd& weights) {
   Positions rows = base.cast<double>();
   for (std::size_t k = 0; k < targets.size(); ++k) {
     const double weight = weights(static_cast<Eigen::Index>(k));
@@ -35,8 +36,9 @@ std::vector<double> frames_and_middles(const std::vector<double>& frame_times) {
 
 }  // namespace
 
-MorphError measure_mesh_morph(const SourceMesh& first, const MorphableMesh& mesh, const MeshMorph& written,
-                              const SmoothingGroups& groups, const ReferenceMotion& motion) {
+MorphError measure_mesh_morph(const SourceMesh& first, const MorphableMesh& mesh,
+                              const MeshMorph& written, const SmoothingGroups& groups,
+                              const ReferenceMotion& motion) {
   const Eigen::Matrix3d linear = first.geometry.to_scene.topLeftCorner<3, 3>();
   const Eigen::RowVector3d translation = first.geometry.to_scene.topRightCorner<3, 1>().transpose();
   const Eigen::Matrix3d inverse = linear.inverse();

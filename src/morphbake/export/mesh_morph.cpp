@@ -19,7 +19,8 @@ Normals to_mesh_space(const Normals& scene_normals, const Eigen::Matrix3d& linea
 
 /// Least-squares fit of normal displacements to the weights over all frames.
 std::vector<Normals> fit_normal_targets(const MorphableMesh& mesh, const MorphBasis& basis,
-                                        const SmoothingGroups& groups, const ReferenceMotion& motion,
+                                        const SmoothingGroups& groups,
+                                        const ReferenceMotion& motion,
                                         const Eigen::Matrix3d& linear) {
   const auto target_count = static_cast<Eigen::Index>(basis.targets.size());
   const Normals rest = to_mesh_space(deformed_normals(groups, mesh, basis.base), linear);
@@ -30,7 +31,8 @@ std::vector<Normals> fit_normal_targets(const MorphableMesh& mesh, const MorphBa
     gram += w * w.transpose();
     if (w.isZero(0)) continue;
     const Positions positions = motion.positions_at(time);
-    const Normals difference = to_mesh_space(deformed_normals(groups, mesh, positions), linear) - rest;
+    const Normals difference =
+        to_mesh_space(deformed_normals(groups, mesh, positions), linear) - rest;
     for (Eigen::Index k = 0; k < target_count; ++k) {
       if (w(k) != 0) moments[static_cast<std::size_t>(k)] += w(k) * difference;
     }
@@ -48,9 +50,11 @@ std::vector<Normals> fit_normal_targets(const MorphableMesh& mesh, const MorphBa
   return fitted;
 }
 
-/// Rows of `of_vertex` for the render vertices begin, begin + 1, ...; zero for those that no triangle uses.
+/// Rows of `of_vertex` for the render vertices begin, begin + 1, ...; zero for those that no
+/// triangle uses.
 template <typename Rows>
-Float3s spread(const Rows& of_vertex, const std::vector<int>& index, Eigen::Index begin, Eigen::Index count) {
+Float3s spread(const Rows& of_vertex, const std::vector<int>& index, Eigen::Index begin,
+               Eigen::Index count) {
   Float3s rows = Float3s::Zero(count, 3);
   for (Eigen::Index r = 0; r < count; ++r) {
     const int vertex = index[static_cast<std::size_t>(begin + r)];
@@ -89,7 +93,8 @@ void add_rest(const SourceMesh& first, const MorphableMesh& mesh, const Smoothin
       if (vertex < 0 || is_source) continue;
       primitive.positions.row(r) =
           (source.positions.row(r).cast<double>() + moved.row(vertex)).cast<float>();
-      if (groups.count > 0) primitive.normals.row(r) = normals.row(groups.of_render[render]).cast<float>();
+      if (groups.count > 0)
+        primitive.normals.row(r) = normals.row(groups.of_render[render]).cast<float>();
     }
     begin += count;
   }
@@ -114,8 +119,9 @@ ReferenceMotion reference_motion(const SolvedShapes& shapes, const SeparableTime
   return {times, between_frames};
 }
 
-MeshMorph make_mesh_morph(const SourceMesh& first, const MorphableMesh& mesh, const MorphBasis& basis,
-                          const SmoothingGroups& groups, const ReferenceMotion& motion) {
+MeshMorph make_mesh_morph(const SourceMesh& first, const MorphableMesh& mesh,
+                          const MorphBasis& basis, const SmoothingGroups& groups,
+                          const ReferenceMotion& motion) {
   MeshMorph morph = empty_morph(first);
   add_rest(first, mesh, groups, basis.base, morph);
   const Eigen::Matrix3d linear = linear_part(first);
@@ -128,7 +134,8 @@ MeshMorph make_mesh_morph(const SourceMesh& first, const MorphableMesh& mesh, co
     Eigen::Index begin = 0;
     for (PrimitiveMorph& primitive : morph.primitives) {
       const Eigen::Index count = primitive.positions.rows();
-      primitive.target_positions.push_back(spread(displacement, mesh.vertex_of_render, begin, count));
+      primitive.target_positions.push_back(
+          spread(displacement, mesh.vertex_of_render, begin, count));
       if (groups.count > 0) {
         primitive.target_normals.push_back(spread(normals[k], groups.of_render, begin, count));
       }
@@ -140,8 +147,8 @@ MeshMorph make_mesh_morph(const SourceMesh& first, const MorphableMesh& mesh, co
   return morph;
 }
 
-MeshMorph make_still(const SourceMesh& first, const MorphableMesh& mesh, const SmoothingGroups& groups,
-                     const Positions& positions) {
+MeshMorph make_still(const SourceMesh& first, const MorphableMesh& mesh,
+                     const SmoothingGroups& groups, const Positions& positions) {
   MeshMorph morph = empty_morph(first);
   add_rest(first, mesh, groups, positions, morph);
   return morph;

@@ -11,8 +11,8 @@ namespace morphbake {
 
 /// The motion that a file is to show: exact positions of K at any moment.
 struct ReferenceMotion {
-  std::vector<double> frame_times;                       ///< seconds, rising
-  std::function<Positions(double time)> positions_at;    ///< #V by 3, scene space
+  std::vector<double> frame_times;                     ///< seconds, rising
+  std::function<Positions(double time)> positions_at;  ///< #V by 3, scene space
 };
 
 /// The motion of `timeline`. For `Frames` the truth between two frames is the line between them.
@@ -21,24 +21,27 @@ ReferenceMotion reference_motion(const SolvedShapes& shapes, const SeparableTime
 
 /// Brings a basis from K and scene space to the primitives of the first source's file.
 ///
-/// Normal targets are the least-squares fit of the deformed normals over all frames to the weights: normals
-/// are not linear in them. Vertices that do not move keep the file's own bytes.
-MeshMorph make_mesh_morph(const SourceMesh& first, const MorphableMesh& mesh, const MorphBasis& basis,
-                          const SmoothingGroups& groups, const ReferenceMotion& motion);
+/// Normal targets are the least-squares fit of the deformed normals over all frames to the weights:
+/// normals are not linear in them. Vertices that do not move keep the file's own bytes.
+MeshMorph make_mesh_morph(const SourceMesh& first, const MorphableMesh& mesh,
+                          const MorphBasis& basis, const SmoothingGroups& groups,
+                          const ReferenceMotion& motion);
 
 /// A plain mesh at `positions`, without targets.
-MeshMorph make_still(const SourceMesh& first, const MorphableMesh& mesh, const SmoothingGroups& groups,
-                     const Positions& positions);
+MeshMorph make_still(const SourceMesh& first, const MorphableMesh& mesh,
+                     const SmoothingGroups& groups, const Positions& positions);
 
-/// How far what is written is from the motion, over all frames and the moments half-way between them.
+/// How far what is written is from the motion, over all frames and the moments half-way between
+/// them.
 struct MorphError {
-  double distance = 0;       ///< scene units, largest
-  double normal_angle = 0;   ///< degrees, largest
-  double normal_time = 0;    ///< seconds, where that is
-  int normal_vertex = 0;     ///< vertex of K where that is
+  double distance = 0;      ///< scene units, largest
+  double normal_angle = 0;  ///< degrees, largest
+  double normal_time = 0;   ///< seconds, where that is
+  int normal_vertex = 0;    ///< vertex of K where that is
 };
 
-MorphError measure_mesh_morph(const SourceMesh& first, const MorphableMesh& mesh, const MeshMorph& written,
-                              const SmoothingGroups& groups, const ReferenceMotion& motion);
+MorphError measure_mesh_morph(const SourceMesh& first, const MorphableMesh& mesh,
+                              const MeshMorph& written, const SmoothingGroups& groups,
+                              const ReferenceMotion& motion);
 
 }  // namespace morphbake

@@ -29,15 +29,16 @@ SmoothingGroups find_smoothing_groups(const SourceMesh& first, const MorphableMe
   const Float3s file_normals = all_file_normals(first);
   if (file_normals.rows() == 0) return groups;
   using NormalBits = std::array<float, 3>;
-  std::vector<std::map<NormalBits, int>> at_vertex(static_cast<std::size_t>(mesh.connectivity.vertex_count));
+  std::vector<std::map<NormalBits, int>> at_vertex(
+      static_cast<std::size_t>(mesh.connectivity.vertex_count));
   std::vector<int> render_of_group;
   groups.of_render.assign(mesh.vertex_of_render.size(), -1);
   for (std::size_t r = 0; r < mesh.vertex_of_render.size(); ++r) {
     const int vertex = mesh.vertex_of_render[r];
     if (vertex < 0) continue;
     const auto row = file_normals.row(static_cast<Eigen::Index>(r));
-    const auto [entry, is_new] =
-        at_vertex[static_cast<std::size_t>(vertex)].try_emplace(NormalBits{row(0), row(1), row(2)}, groups.count);
+    const auto [entry, is_new] = at_vertex[static_cast<std::size_t>(vertex)].try_emplace(
+        NormalBits{row(0), row(1), row(2)}, groups.count);
     groups.of_render[r] = entry->second;
     if (!is_new) continue;
     ++groups.count;
@@ -50,12 +51,13 @@ SmoothingGroups find_smoothing_groups(const SourceMesh& first, const MorphableMe
   const Eigen::Matrix3d inverse = first.geometry.to_scene.topLeftCorner<3, 3>().inverse();
   const Float3s chosen = file_normals(render_of_group, Eigen::all);
   groups.source_normals = (chosen.cast<double>() * inverse).rowwise().normalized();
-  groups.surface_normals =
-      corner_group_normals(mesh.geometries[0], mesh.connectivity.triangles, groups.of_corner, groups.count);
+  groups.surface_normals = corner_group_normals(mesh.geometries[0], mesh.connectivity.triangles,
+                                                groups.of_corner, groups.count);
   return groups;
 }
 
-Normals deformed_normals(const SmoothingGroups& groups, const MorphableMesh& mesh, const Positions& positions) {
+Normals deformed_normals(const SmoothingGroups& groups, const MorphableMesh& mesh,
+                         const Positions& positions) {
   const Normals surface =
       corner_group_normals(positions, mesh.connectivity.triangles, groups.of_corner, groups.count);
   Normals normals = groups.source_normals;

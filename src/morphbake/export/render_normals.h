@@ -7,8 +7,8 @@
 
 namespace morphbake {
 
-/// The corners of K that share a normal: one group for each vertex of K and distinct NORMAL of the first
-/// source there. Hard edges separate groups; UV seams, whose sides have one normal, do not.
+/// The corners of K that share a normal: one group for each vertex of K and distinct NORMAL of the
+/// first source there. Hard edges separate groups; UV seams, whose sides have one normal, do not.
 struct SmoothingGroups {
   int count = 0;               ///< 0 when a primitive of the source has no NORMAL
   std::vector<int> of_corner;  ///< 3 #F of K
@@ -23,6 +23,7 @@ SmoothingGroups find_smoothing_groups(const SourceMesh& first, const MorphableMe
 ///
 /// @param positions  of K, scene space
 /// @return           #groups by 3, scene space
-Normals deformed_normals(const SmoothingGroups& groups, const MorphableMesh& mesh, const Positions& positions);
+Normals deformed_normals(const SmoothingGroups& groups, const MorphableMesh& mesh,
+                         const Positions& positions);
 
 }  // namespace morphbake

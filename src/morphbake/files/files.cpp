@@ -16,6 +16,7 @@
 
 namespace morphbake {
 namespace fs = std::filesystem;
+
 namespace {
 
 [[noreturn]] void fail(const std::string& code, const fs::path& path, const std::string& message,
@@ -28,7 +29,8 @@ namespace {
        "check that the folder is writable and has free space, or choose another with --output-dir");
 }
 
-/// "dir/name.gif" -> "dir/.name.3f2a9c01.tmp.gif"; the extension stays last because libraries choose by it.
+/// "dir/name.gif" -> "dir/.name.3f2a9c01.tmp.gif"; the extension stays last because libraries
+/// choose by it.
 fs::path temporary_beside(const fs::path& path) {
   std::random_device random;
   const std::string token = fmt::format("{:08x}{:08x}", random(), random());
@@ -84,7 +86,8 @@ std::string read_file(const fs::path& path, std::uintmax_t size_limit) {
   const std::uintmax_t size = fs::file_size(path, error);
   if (error) fail("files.unreadable", path, "cannot read: " + error.message());
   if (size > size_limit) {
-    fail("files.too-large", path, fmt::format("the file has {} bytes; the limit is {}", size, size_limit));
+    fail("files.too-large", path,
+         fmt::format("the file has {} bytes; the limit is {}", size, size_limit));
   }
   std::ifstream stream(path, std::ios::binary);
   std::string bytes(static_cast<std::size_t>(size), '\0');
@@ -104,7 +107,8 @@ fs::path inside_folder(const fs::path& folder, std::string_view uri) {
   if (error) return {};
   const fs::path target = fs::weakly_canonical(root / relative, error);
   if (error) return {};
-  const auto [root_end, ignored] = std::mismatch(root.begin(), root.end(), target.begin(), target.end());
+  const auto [root_end, ignored] =
+      std::mismatch(root.begin(), root.end(), target.begin(), target.end());
   return root_end == root.end() ? target : fs::path();
 }
 
@@ -132,7 +136,8 @@ fs::path PendingOutputs::stage(const fs::path& path, std::string_view bytes) {
 void PendingOutputs::commit() {
   for (const Entry& entry : entries_) sync_to_disk(entry.temporary);
   for (const Entry& entry : entries_) {
-    if (std::rename(entry.temporary.c_str(), entry.target.c_str()) != 0) fail_to_write(entry.target, errno);
+    if (std::rename(entry.temporary.c_str(), entry.target.c_str()) != 0)
+      fail_to_write(entry.target, errno);
   }
   entries_.clear();
   made_folders_.clear();

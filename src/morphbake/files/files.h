@@ -17,7 +17,8 @@ std::string read_file(const std::filesystem::path& path, std::uintmax_t size_lim
 /// The file that a relative reference `uri` inside `folder` names.
 ///
 /// @param uri  a relative path as it stands in a glTF or recipe, percent-encoding already removed
-/// @return     nothing (empty path) when it is absolute, has a scheme, or leaves the folder, also by symbolic link
+/// @return     nothing (empty path) when it is absolute, has a scheme, or leaves the folder, also
+/// by symbolic link
 std::filesystem::path inside_folder(const std::filesystem::path& folder, std::string_view uri);
 
 /// Outputs that appear together or not at all.
@@ -36,8 +37,8 @@ class PendingOutputs {
   /// @return  the temporary file, to be read back until commit()
   std::filesystem::path stage(const std::filesystem::path& path, std::string_view bytes);
 
-  /// A fresh temporary name beside `path` for a library that writes the file itself; it must keep the
-  /// extension, which such libraries choose the format by.
+  /// A fresh temporary name beside `path` for a library that writes the file itself; it must keep
+  /// the extension, which such libraries choose the format by.
   std::filesystem::path stage_external(const std::filesystem::path& path);
 
   /// Renames everything into place.

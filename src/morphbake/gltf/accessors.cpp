@@ -45,20 +45,24 @@ float component_value(const unsigned char* bytes, int type) {
   }
 }
 
-void check_components(const GltfDocument& document, int index, int columns, const std::string& pointer) {
+void check_components(const GltfDocument& document, int index, int columns,
+                      const std::string& pointer) {
   const tinygltf::Accessor& accessor = accessor_at(document, index, pointer);
   const int type = accessor.componentType;
   const bool is_float = type == TINYGLTF_COMPONENT_TYPE_FLOAT && !accessor.normalized;
   const bool is_short_integer = type >= TINYGLTF_COMPONENT_TYPE_BYTE &&
-                                type <= TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT && accessor.normalized;
+                                type <= TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT &&
+                                accessor.normalized;
   if (!is_float && !is_short_integer) {
     fail_at(document, pointer, "gltf.unsupported-accessor",
-            fmt::format("accessor {} has component type {}, neither float nor a normalised short integer",
-                        index, type));
+            fmt::format(
+                "accessor {} has component type {}, neither float nor a normalised short integer",
+                index, type));
   }
   if (const int found = accessor_columns(document, index, pointer); found != columns) {
-    fail_at(document, pointer, "gltf.accessor",
-            fmt::format("accessor {} has {} numbers an element instead of {}", index, found, columns));
+    fail_at(
+        document, pointer, "gltf.accessor",
+        fmt::format("accessor {} has {} numbers an element instead of {}", index, found, columns));
   }
 }
 
@@ -74,15 +78,18 @@ ElementSpan element_span(const GltfDocument& document, int index, const std::str
   const std::string accessor_pointer = fmt::format("/accessors/{}", index);
   const auto& view = item_at(document, document.model.bufferViews, accessor.bufferView,
                              accessor_pointer + "/bufferView", "bufferView");
-  const auto& buffer = item_at(document, document.model.buffers, view.buffer,
-                               fmt::format("/bufferViews/{}/buffer", accessor.bufferView), "buffer");
+  const auto& buffer =
+      item_at(document, document.model.buffers, view.buffer,
+              fmt::format("/bufferViews/{}/buffer", accessor.bufferView), "buffer");
   const int component_size =
       tinygltf::GetComponentSizeInBytes(static_cast<std::uint32_t>(accessor.componentType));
-  const int components = tinygltf::GetNumComponentsInType(static_cast<std::uint32_t>(accessor.type));
+  const int components =
+      tinygltf::GetNumComponentsInType(static_cast<std::uint32_t>(accessor.type));
   if (component_size <= 0 || components <= 0) {
     fail_at(document, accessor_pointer, "gltf.accessor", "unknown component type or element type");
   }
-  const std::size_t element = static_cast<std::size_t>(component_size) * static_cast<std::size_t>(components);
+  const std::size_t element =
+      static_cast<std::size_t>(component_size) * static_cast<std::size_t>(components);
   const std::size_t stride = view.byteStride > 0 ? view.byteStride : element;
   const std::size_t size = buffer.data.size();
   // Each subtraction is guarded by the test before it, so that no sum can overflow.
@@ -128,7 +135,8 @@ Float3s read_float3s(const GltfDocument& document, int index, const std::string&
   if (const int type = accessor_at(document, index, pointer).componentType;
       type != TINYGLTF_COMPONENT_TYPE_FLOAT) {
     fail_at(document, pointer, "gltf.unsupported-accessor",
-            fmt::format("accessor {} has component type {}; only float (5126) is supported", index, type),
+            fmt::format("accessor {} has component type {}; only float (5126) is supported", index,
+                        type),
             "export without quantisation");
   }
   const std::vector<float> values = read_floats(document, index, 3, pointer);
@@ -146,8 +154,9 @@ TriangleIndices read_triangles(const GltfDocument& document, int index, std::siz
                                                                     : 0;
   if (size == 0 || accessor.type != TINYGLTF_TYPE_SCALAR || span.count % 3 != 0) {
     fail_at(document, pointer, "gltf.accessor",
-            fmt::format("accessor {} holds no triangles: it needs a multiple of 3 unsigned scalars, not {}",
-                        index, span.count));
+            fmt::format(
+                "accessor {} holds no triangles: it needs a multiple of 3 unsigned scalars, not {}",
+                index, span.count));
   }
   TriangleIndices triangles(static_cast<Eigen::Index>(span.count / 3), 3);
   for (std::size_t i = 0; i < span.count; ++i) {
@@ -155,8 +164,8 @@ TriangleIndices read_triangles(const GltfDocument& document, int index, std::siz
     std::memcpy(&vertex, span.first + i * span.stride, static_cast<std::size_t>(size));
     if (vertex >= vertex_count) {
       fail_at(document, pointer, "gltf.accessor",
-              fmt::format("index {} of accessor {} is {}, but there are {} vertices", i, index, vertex,
-                          vertex_count));
+              fmt::format("index {} of accessor {} is {}, but there are {} vertices", i, index,
+                          vertex, vertex_count));
     }
     triangles.data()[i] = static_cast<int>(vertex);
   }

@@ -1,6 +1,7 @@
 #pragma once
 
-// Internal to gltf/: checked reads of accessors. Nothing is allocated before the sizes were checked.
+// Internal to gltf/: checked reads of accessors. Nothing is allocated before the sizes were
+// checked.
 
 #include <string>
 #include <vector>
@@ -27,7 +28,8 @@ ElementSpan element_span(const GltfDocument& document, int accessor, const std::
 /// @throws BakeError "gltf.accessor", "gltf.unsupported-accessor", "gltf.not-finite"
 Float3s read_float3s(const GltfDocument& document, int accessor, const std::string& pointer);
 
-/// The accessor's elements of `columns` numbers each, row by row; normalised integers become floats.
+/// The accessor's elements of `columns` numbers each, row by row; normalised integers become
+/// floats.
 std::vector<float> read_floats(const GltfDocument& document, int accessor, int columns,
                                const std::string& pointer);
 

@@ -22,7 +22,8 @@ Float3s read_optional_float3s(const GltfDocument& document, const Attributes& at
   return read_float3s(document, found->second, pointer + "/" + name);
 }
 
-Float3s read_colours(const GltfDocument& document, const Attributes& attributes, const std::string& pointer) {
+Float3s read_colours(const GltfDocument& document, const Attributes& attributes,
+                     const std::string& pointer) {
   const auto found = attributes.find("COLOR_0");
   if (found == attributes.end()) return {};
   const std::string place = pointer + "/COLOR_0";
@@ -33,8 +34,8 @@ Float3s read_colours(const GltfDocument& document, const Attributes& attributes,
   return Eigen::Map<const Rows>(values.data(), count, columns).leftCols<3>();
 }
 
-Float2s read_texture_coordinates(const GltfDocument& document, const Attributes& attributes, int set,
-                                 const std::string& pointer) {
+Float2s read_texture_coordinates(const GltfDocument& document, const Attributes& attributes,
+                                 int set, const std::string& pointer) {
   const std::string name = fmt::format("TEXCOORD_{}", set);
   const auto found = attributes.find(name);
   if (found == attributes.end()) return {};
@@ -43,7 +44,8 @@ Float2s read_texture_coordinates(const GltfDocument& document, const Attributes&
 }
 
 /// Index into mesh.images of a texture's picture, whose bytes are added when new; -1 for none.
-int add_image(const GltfDocument& document, int texture, std::map<int, int>& known, AnimatedMesh& mesh) {
+int add_image(const GltfDocument& document, int texture, std::map<int, int>& known,
+              AnimatedMesh& mesh) {
   const tinygltf::Model& model = document.model;
   if (texture < 0 || static_cast<std::size_t>(texture) >= model.textures.size()) return -1;
   const int source = model.textures[static_cast<std::size_t>(texture)].source;
@@ -83,22 +85,26 @@ void check_rows(const GltfDocument& document, const Float3s& rows, Eigen::Index 
 AnimatedPrimitive read_primitive(const GltfDocument& document, const tinygltf::Primitive& source,
                                  const std::string& pointer) {
   if ((source.mode != -1 && source.mode != TINYGLTF_MODE_TRIANGLES) || source.indices < 0) {
-    fail_at(document, pointer, "gltf.unsupported-primitive", "only indexed triangles are supported");
+    fail_at(document, pointer, "gltf.unsupported-primitive",
+            "only indexed triangles are supported");
   }
   AnimatedPrimitive primitive;
-  primitive.positions = read_optional_float3s(document, source.attributes, "POSITION", pointer + "/attributes");
-  primitive.normals = read_optional_float3s(document, source.attributes, "NORMAL", pointer + "/attributes");
+  primitive.positions =
+      read_optional_float3s(document, source.attributes, "POSITION", pointer + "/attributes");
+  primitive.normals =
+      read_optional_float3s(document, source.attributes, "NORMAL", pointer + "/attributes");
   primitive.colours = read_colours(document, source.attributes, pointer + "/attributes");
   const Eigen::Index count = primitive.positions.rows();
   check_rows(document, primitive.normals, count, pointer + "/attributes/NORMAL");
   check_rows(document, primitive.colours, count, pointer + "/attributes/COLOR_0");
-  primitive.triangles =
-      read_triangles(document, source.indices, static_cast<std::size_t>(count), pointer + "/indices");
+  primitive.triangles = read_triangles(document, source.indices, static_cast<std::size_t>(count),
+                                       pointer + "/indices");
   for (std::size_t t = 0; t < source.targets.size(); ++t) {
     const std::string place = fmt::format("{}/targets/{}", pointer, t);
     primitive.target_positions.push_back(
         read_optional_float3s(document, source.targets[t], "POSITION", place));
-    primitive.target_normals.push_back(read_optional_float3s(document, source.targets[t], "NORMAL", place));
+    primitive.target_normals.push_back(
+        read_optional_float3s(document, source.targets[t], "NORMAL", place));
     check_rows(document, primitive.target_positions.back(), count, place + "/POSITION");
     check_rows(document, primitive.target_normals.back(), count, place + "/NORMAL");
   }
@@ -117,7 +123,8 @@ std::vector<std::string> read_target_names(const tinygltf::Mesh& mesh, std::size
   return names;
 }
 
-void read_rest_weights(const tinygltf::Node& node, const tinygltf::Mesh& source, AnimatedMesh& mesh) {
+void read_rest_weights(const tinygltf::Node& node, const tinygltf::Mesh& source,
+                       AnimatedMesh& mesh) {
   const auto count = static_cast<Eigen::Index>(mesh.target_names.size());
   const std::vector<double>& weights = node.weights.empty() ? source.weights : node.weights;
   mesh.key_weights = Eigen::MatrixXf::Zero(1, count);
@@ -134,19 +141,23 @@ void read_weights_animation(const GltfDocument& document, int node, AnimatedMesh
     for (const tinygltf::AnimationChannel& channel : animation.channels) {
       if (channel.target_node != node || channel.target_path != "weights") continue;
       const std::string pointer = fmt::format("/animations/{}/samplers/{}", a, channel.sampler);
-      if (channel.sampler < 0 || static_cast<std::size_t>(channel.sampler) >= animation.samplers.size()) {
+      if (channel.sampler < 0 ||
+          static_cast<std::size_t>(channel.sampler) >= animation.samplers.size()) {
         fail_at(document, pointer, "gltf.invalid", "the sampler does not exist");
       }
       const auto& sampler = animation.samplers[static_cast<std::size_t>(channel.sampler)];
       if (sampler.interpolation != "LINEAR") {
-        fail_at(document, pointer + "/interpolation", "gltf.unsupported-animation",
-                fmt::format("weights with {} interpolation are not supported", sampler.interpolation));
+        fail_at(
+            document, pointer + "/interpolation", "gltf.unsupported-animation",
+            fmt::format("weights with {} interpolation are not supported", sampler.interpolation));
       }
       const std::vector<float> times = read_floats(document, sampler.input, 1, pointer + "/input");
-      const std::vector<float> weights = read_floats(document, sampler.output, 1, pointer + "/output");
+      const std::vector<float> weights =
+          read_floats(document, sampler.output, 1, pointer + "/output");
       if (weights.size() != times.size() * static_cast<std::size_t>(count)) {
         fail_at(document, pointer + "/output", "gltf.accessor",
-                fmt::format("{} weights for {} keys of {} targets", weights.size(), times.size(), count));
+                fmt::format("{} weights for {} keys of {} targets", weights.size(), times.size(),
+                            count));
       }
       mesh.key_times = times;
       using Rows = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
@@ -164,7 +175,8 @@ AnimatedMesh read_animated_mesh(const std::filesystem::path& file) {
   const GltfDocument& document = *opened;
   const std::vector<MeshNode> nodes = find_mesh_nodes(document);
   const auto& meshes = document.model.meshes;
-  if (nodes.empty() || nodes[0].mesh < 0 || static_cast<std::size_t>(nodes[0].mesh) >= meshes.size()) {
+  if (nodes.empty() || nodes[0].mesh < 0 ||
+      static_cast<std::size_t>(nodes[0].mesh) >= meshes.size()) {
     fail_at(document, "/nodes", "gltf.no-mesh", "no node of the scene has a mesh");
   }
   const MeshNode& at = nodes.front();
@@ -176,7 +188,8 @@ AnimatedMesh read_animated_mesh(const std::filesystem::path& file) {
   for (std::size_t p = 0; p < source.primitives.size(); ++p) {
     const std::string pointer = primitive_pointer(at.mesh, p);
     mesh.primitives.push_back(read_primitive(document, source.primitives[p], pointer));
-    read_material(document, source.primitives[p], pointer, known_images, mesh, mesh.primitives.back());
+    read_material(document, source.primitives[p], pointer, known_images, mesh,
+                  mesh.primitives.back());
     target_count = std::max(target_count, source.primitives[p].targets.size());
   }
   mesh.target_names = read_target_names(source, target_count);
@@ -185,14 +198,16 @@ AnimatedMesh read_animated_mesh(const std::filesystem::path& file) {
   return mesh;
 }
 
-Eigen::VectorXd interpolate_keys(const std::vector<float>& times, const Eigen::MatrixXf& weights, double time) {
+Eigen::VectorXd interpolate_keys(const std::vector<float>& times, const Eigen::MatrixXf& weights,
+                                 double time) {
   const auto after = std::upper_bound(times.begin(), times.end(), time);
   if (after == times.begin()) return weights.row(0).cast<double>();
   if (after == times.end()) return weights.row(weights.rows() - 1).cast<double>();
   const Eigen::Index next = after - times.begin();
   const double begin = *(after - 1);
   const double share = (time - begin) / (*after - begin);
-  return (1 - share) * weights.row(next - 1).cast<double>() + share * weights.row(next).cast<double>();
+  return (1 - share) * weights.row(next - 1).cast<double>() +
+         share * weights.row(next).cast<double>();
 }
 
 Eigen::VectorXd weights_at(const AnimatedMesh& mesh, double time) {

@@ -13,17 +13,19 @@
 
 namespace morphbake {
 namespace fs = std::filesystem;
+
 namespace {
 
 // tinygltf counts bytes in 32 bits.
 constexpr std::uintmax_t kFileSizeLimit = (std::uintmax_t{1} << 32) - 1;
 
-// What a source may require and still be read right: these change how a surface looks, not its shape.
+// What a source may require and still be read right: these change how a surface looks, not its
+// shape.
 constexpr std::array kReadableExtensions = {
-    "KHR_materials_unlit",     "KHR_materials_clearcoat", "KHR_materials_emissive_strength",
-    "KHR_materials_ior",       "KHR_materials_sheen",     "KHR_materials_specular",
-    "KHR_materials_transmission", "KHR_materials_volume", "KHR_materials_iridescence",
-    "KHR_materials_anisotropy", "KHR_materials_dispersion", "KHR_materials_variants",
+    "KHR_materials_unlit",        "KHR_materials_clearcoat",  "KHR_materials_emissive_strength",
+    "KHR_materials_ior",          "KHR_materials_sheen",      "KHR_materials_specular",
+    "KHR_materials_transmission", "KHR_materials_volume",     "KHR_materials_iridescence",
+    "KHR_materials_anisotropy",   "KHR_materials_dispersion", "KHR_materials_variants",
     "KHR_lights_punctual"};
 
 std::uint32_t read_u32(const std::string& bytes, std::size_t offset) {
@@ -38,7 +40,8 @@ bool is_binary(const std::string& bytes) { return bytes.compare(0, 4, "glTF") ==
 std::string json_chunk(const GltfDocument& document, const std::string& bytes) {
   constexpr std::size_t kHeader = 12, kChunkHeader = 8;
   if (bytes.size() < kHeader + kChunkHeader) {
-    fail_at(document, "", "gltf.truncated", fmt::format("a .glb of {} bytes is no glTF", bytes.size()));
+    fail_at(document, "", "gltf.truncated",
+            fmt::format("a .glb of {} bytes is no glTF", bytes.size()));
   }
   if (const std::uint32_t version = read_u32(bytes, 4); version != 2) {
     fail_at(document, "", "gltf.version", fmt::format("the .glb has container version {}", version),
@@ -51,7 +54,8 @@ std::string json_chunk(const GltfDocument& document, const std::string& bytes) {
   }
   const std::uint32_t length = read_u32(bytes, kHeader);
   if (length > bytes.size() - kHeader - kChunkHeader || bytes.compare(16, 4, "JSON") != 0) {
-    fail_at(document, "", "gltf.truncated", "the first chunk of the .glb is no complete JSON chunk");
+    fail_at(document, "", "gltf.truncated",
+            "the first chunk of the .glb is no complete JSON chunk");
   }
   return bytes.substr(kHeader + kChunkHeader, length);
 }
@@ -69,7 +73,8 @@ std::string percent_decoded(const std::string& uri) {
   return text;
 }
 
-/// Broken JSON in a source is a problem of the source, not of the recipe: "json.syntax" is "gltf.json-syntax".
+/// Broken JSON in a source is a problem of the source, not of the recipe: "json.syntax" is
+/// "gltf.json-syntax".
 Json parse_source_json(const GltfDocument& document, const std::string& text) {
   try {
     return parse_json(text, document.file.string());
@@ -183,7 +188,8 @@ void parse_model(GltfDocument& document, const std::string& bytes) {
   const bool parsed =
       is_binary(bytes)
           ? parser.LoadBinaryFromMemory(&document.model, &errors, &warnings,
-                                        reinterpret_cast<const unsigned char*>(bytes.data()), size, "")
+                                        reinterpret_cast<const unsigned char*>(bytes.data()), size,
+                                        "")
           : parser.LoadASCIIFromString(&document.model, &errors, &warnings, bytes.data(), size, "");
   if (parsed) return;
   std::replace(errors.begin(), errors.end(), '\n', ' ');
@@ -196,7 +202,8 @@ void parse_model(GltfDocument& document, const std::string& bytes) {
 
 void fail_at(const GltfDocument& document, const std::string& pointer, const std::string& code,
              const std::string& message, const std::string& hint) {
-  throw BakeError(Problem{Severity::Error, code, {document.file.string(), pointer, 0, 0}, message, hint});
+  throw BakeError(
+      Problem{Severity::Error, code, {document.file.string(), pointer, 0, 0}, message, hint});
 }
 
 std::string file_of(const GltfFile& file) { return file->file.string(); }
@@ -210,7 +217,8 @@ GltfFile open_gltf(const fs::path& file) {
     fail_at(*document, "", "gltf.not-gltf", "this is neither a .glb nor the JSON of a .gltf",
             "sources are glTF 2.0 files; export the mesh as .glb");
   }
-  document->json = parse_source_json(*document, is_binary(bytes) ? json_chunk(*document, bytes) : bytes);
+  document->json =
+      parse_source_json(*document, is_binary(bytes) ? json_chunk(*document, bytes) : bytes);
   check_version(*document);
   check_required_extensions(*document);
   check_uris(*document, "buffers");

@@ -14,7 +14,8 @@ using GltfFile = std::shared_ptr<const GltfDocument>;
 /// Opens a .glb or .gltf file with all its buffers.
 ///
 /// Buffer and image URIs must stay inside the file's folder.
-/// @throws BakeError "gltf.not-gltf", "gltf.truncated", "gltf.version", "gltf.invalid", "gltf.outside-folder",
+/// @throws BakeError "gltf.not-gltf", "gltf.truncated", "gltf.version", "gltf.invalid",
+/// "gltf.outside-folder",
 ///         "gltf.unsupported-extension", "gltf.buffer", "gltf.missing-file",
 ///         "gltf.json-syntax", "gltf.json-duplicate-key", "gltf.json-too-deep"
 GltfFile open_gltf(const std::filesystem::path& file);

@@ -70,12 +70,14 @@ std::vector<MeshNode> find_mesh_nodes(const GltfDocument& document) {
       fail_at(document, pointer, "gltf.invalid", fmt::format("node {} does not exist", visit.node));
     }
     if (visited[index]) {
-      fail_at(document, pointer, "gltf.invalid", "the node has several parents or is its own ancestor");
+      fail_at(document, pointer, "gltf.invalid",
+              "the node has several parents or is its own ancestor");
     }
     visited[index] = true;
     const tinygltf::Node& node = nodes[index];
     const Eigen::Matrix4d to_scene = visit.parent_to_scene * local_transform(node);
-    if (!to_scene.allFinite()) fail_at(document, pointer, "gltf.not-finite", "the transform is not finite");
+    if (!to_scene.allFinite())
+      fail_at(document, pointer, "gltf.not-finite", "the transform is not finite");
     if (node.mesh >= 0) found.push_back({visit.node, node.mesh, to_scene});
     for (auto child = node.children.rbegin(); child != node.children.rend(); ++child) {
       stack.push_back({*child, to_scene});

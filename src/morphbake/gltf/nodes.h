@@ -14,7 +14,8 @@ struct MeshNode {
   Eigen::Matrix4d to_scene = Eigen::Matrix4d::Identity();  ///< global transform
 };
 
-/// The nodes of the default scene (of all scenes without one) that have a mesh, in depth-first order.
+/// The nodes of the default scene (of all scenes without one) that have a mesh, in depth-first
+/// order.
 ///
 /// @throws BakeError "gltf.invalid" for cycles, several parents or indices out of range
 std::vector<MeshNode> find_mesh_nodes(const GltfDocument& document);

@@ -34,20 +34,22 @@ void check_node(const GltfDocument& document, const MeshNode& at) {
   const double determinant = at.to_scene.topLeftCorner<3, 3>().determinant();
   if (!(std::abs(determinant) > 1e-30)) {
     fail_at(document, fmt::format("/nodes/{}", at.node), "gltf.singular-transform",
-            "the node's transform flattens the mesh (determinant 0)", "apply the transform and export again");
+            "the node's transform flattens the mesh (determinant 0)",
+            "apply the transform and export again");
   }
 }
 
 PrimitiveGeometry read_primitive(const GltfDocument& document, const tinygltf::Primitive& primitive,
                                  const std::string& pointer) {
   if (primitive.mode != -1 && primitive.mode != TINYGLTF_MODE_TRIANGLES) {
-    fail_at(document, pointer + "/mode", "gltf.unsupported-primitive",
-            fmt::format("primitive mode {} is not supported; only triangles (4) are", primitive.mode),
-            "export triangles");
+    fail_at(
+        document, pointer + "/mode", "gltf.unsupported-primitive",
+        fmt::format("primitive mode {} is not supported; only triangles (4) are", primitive.mode),
+        "export triangles");
   }
   if (primitive.indices < 0) {
-    fail_at(document, pointer, "gltf.unsupported-primitive", "primitives without indices are not supported",
-            "export indexed triangles");
+    fail_at(document, pointer, "gltf.unsupported-primitive",
+            "primitives without indices are not supported", "export indexed triangles");
   }
   if (!primitive.targets.empty()) {
     fail_at(document, pointer + "/targets", "gltf.unsupported-targets",
@@ -56,11 +58,13 @@ PrimitiveGeometry read_primitive(const GltfDocument& document, const tinygltf::P
   }
   const auto position = primitive.attributes.find("POSITION");
   if (position == primitive.attributes.end()) {
-    fail_at(document, pointer + "/attributes", "gltf.unsupported-primitive", "the primitive has no POSITION");
+    fail_at(document, pointer + "/attributes", "gltf.unsupported-primitive",
+            "the primitive has no POSITION");
   }
   PrimitiveGeometry geometry;
   geometry.positions = read_float3s(document, position->second, pointer + "/attributes/POSITION");
-  if (const auto normal = primitive.attributes.find("NORMAL"); normal != primitive.attributes.end()) {
+  if (const auto normal = primitive.attributes.find("NORMAL");
+      normal != primitive.attributes.end()) {
     geometry.normals = read_float3s(document, normal->second, pointer + "/attributes/NORMAL");
     if (geometry.normals.rows() != geometry.positions.rows()) {
       fail_at(document, pointer + "/attributes/NORMAL", "gltf.accessor",
@@ -68,9 +72,9 @@ PrimitiveGeometry read_primitive(const GltfDocument& document, const tinygltf::P
                           geometry.positions.rows()));
     }
   }
-  geometry.triangles = read_triangles(document, primitive.indices,
-                                      static_cast<std::size_t>(geometry.positions.rows()),
-                                      pointer + "/indices");
+  geometry.triangles =
+      read_triangles(document, primitive.indices,
+                     static_cast<std::size_t>(geometry.positions.rows()), pointer + "/indices");
   return geometry;
 }
 
@@ -102,10 +106,12 @@ SourceGeometry read_source_geometry(const GltfFile& file) {
   SourceGeometry source{at.node, at.mesh, at.to_scene, {}};
   const tinygltf::Mesh& mesh = document.model.meshes[static_cast<std::size_t>(at.mesh)];
   for (std::size_t p = 0; p < mesh.primitives.size(); ++p) {
-    source.primitives.push_back(read_primitive(document, mesh.primitives[p], primitive_pointer(at.mesh, p)));
+    source.primitives.push_back(
+        read_primitive(document, mesh.primitives[p], primitive_pointer(at.mesh, p)));
   }
   if (source.primitives.empty()) {
-    fail_at(document, fmt::format("/meshes/{}", at.mesh), "gltf.no-mesh", "the mesh has no primitive");
+    fail_at(document, fmt::format("/meshes/{}", at.mesh), "gltf.no-mesh",
+            "the mesh has no primitive");
   }
   check_normals(document, source);
   return source;

@@ -11,9 +11,9 @@ namespace morphbake {
 
 /// The geometry of one primitive as it stands in the file.
 struct PrimitiveGeometry {
-  Triangles triangles;   ///< #F by 3, rows of this primitive, in the file's winding
-  Float3s positions;     ///< #V by 3, mesh space
-  Float3s normals;       ///< #V by 3, mesh space, or no rows
+  Triangles triangles;  ///< #F by 3, rows of this primitive, in the file's winding
+  Float3s positions;    ///< #V by 3, mesh space
+  Float3s normals;      ///< #V by 3, mesh space, or no rows
 };
 
 /// The one mesh of a source file.
@@ -27,8 +27,8 @@ struct SourceGeometry {
 /// Reads the mesh that a source brings: one node with a mesh, made of indexed triangle primitives.
 ///
 /// @throws BakeError "gltf.no-mesh", "gltf.several-meshes", "gltf.unsupported-primitive",
-///         "gltf.unsupported-skin", "gltf.unsupported-targets", "gltf.singular-transform", "gltf.mixed-normals",
-///         "gltf.accessor", ...
+///         "gltf.unsupported-skin", "gltf.unsupported-targets", "gltf.singular-transform",
+///         "gltf.mixed-normals", "gltf.accessor", ...
 SourceGeometry read_source_geometry(const GltfFile& file);
 
 /// JSON pointer of a primitive, for messages.

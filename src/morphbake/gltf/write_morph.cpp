@@ -46,7 +46,8 @@ Json column_maxima(const Rows& rows) {
 /// Appends float data as a bufferView of its own; returns its index.
 int append_view(Draft& draft, const float* data, std::size_t count, bool of_vertices) {
   draft.align();
-  Json view = {{"buffer", 0}, {"byteOffset", draft.binary.size()}, {"byteLength", count * sizeof(float)}};
+  Json view = {
+      {"buffer", 0}, {"byteOffset", draft.binary.size()}, {"byteLength", count * sizeof(float)}};
   if (of_vertices) view["target"] = kArrayBuffer;
   draft.binary.append(reinterpret_cast<const char*>(data), count * sizeof(float));
   Json& views = draft.json["bufferViews"];
@@ -72,9 +73,13 @@ int append_vectors(Draft& draft, const Float3s& rows) {
 
 int append_scalars(Draft& draft, const std::vector<float>& values, bool bounded) {
   const int view = append_view(draft, values.data(), values.size(), false);
-  Json accessor = {{"bufferView", view}, {"componentType", kFloat}, {"count", values.size()}, {"type", "SCALAR"}};
+  Json accessor = {{"bufferView", view},
+                   {"componentType", kFloat},
+                   {"count", values.size()},
+                   {"type", "SCALAR"}};
   if (bounded) {
-    const Eigen::Map<const Eigen::VectorXf> column(values.data(), static_cast<Eigen::Index>(values.size()));
+    const Eigen::Map<const Eigen::VectorXf> column(values.data(),
+                                                   static_cast<Eigen::Index>(values.size()));
     accessor["min"] = column_minima(column);
     accessor["max"] = column_maxima(column);
   }
@@ -117,7 +122,8 @@ void embed_images(const GltfDocument& document, Draft& draft) {
 }
 
 /// Writes `rows` over the elements of an accessor of the source, where they lie.
-void overwrite_vectors(const GltfDocument& document, Draft& draft, int accessor, const Float3s& rows) {
+void overwrite_vectors(const GltfDocument& document, Draft& draft, int accessor,
+                       const Float3s& rows) {
   const ElementSpan span = element_span(document, accessor, fmt::format("/accessors/{}", accessor));
   std::size_t begin = span.offset_in_buffer;
   for (int b = 0; b < span.buffer; ++b) {
@@ -142,16 +148,18 @@ void write_primitive(const GltfDocument& document, const PrimitiveMorph& morph, 
   }
   for (std::size_t t = 0; t < morph.target_positions.size(); ++t) {
     Json target = {{"POSITION", append_vectors(draft, morph.target_positions[t])}};
-    if (!morph.target_normals.empty()) target["NORMAL"] = append_vectors(draft, morph.target_normals[t]);
+    if (!morph.target_normals.empty())
+      target["NORMAL"] = append_vectors(draft, morph.target_normals[t]);
     primitive["targets"].push_back(std::move(target));
   }
 }
 
 void write_animation(const MeshMorph& morph, Draft& draft) {
-  const Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> weights = morph.key_weights;
+  const Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> weights =
+      morph.key_weights;
   const int input = append_scalars(draft, morph.key_times, true);
-  const int output =
-      append_scalars(draft, std::vector<float>(weights.data(), weights.data() + weights.size()), false);
+  const int output = append_scalars(
+      draft, std::vector<float>(weights.data(), weights.data() + weights.size()), false);
   const Json target = {{"node", morph.node}, {"path", "weights"}};
   const Json sampler = {{"input", input}, {"output", output}, {"interpolation", "LINEAR"}};
   const Json channel = {{"sampler", 0}, {"target", target}};
@@ -172,9 +180,12 @@ std::string glb_bytes(const GltfDocument& document, Draft& draft) {
   text.resize((text.size() + 3) / 4 * 4, ' ');
   const std::size_t total = 12 + 8 + text.size() + 8 + draft.binary.size();
   if (total > std::numeric_limits<std::uint32_t>::max()) {
-    throw BakeError(Problem{Severity::Error, "output.too-large", {document.file.string(), "", 0, 0},
-                            fmt::format("the result would have {} bytes; a .glb holds 4 GiB", total),
-                            "use \"targets\": \"tracks\" or fewer frames"});
+    throw BakeError(
+        Problem{Severity::Error,
+                "output.too-large",
+                {document.file.string(), "", 0, 0},
+                fmt::format("the result would have {} bytes; a .glb holds 4 GiB", total),
+                "use \"targets\": \"tracks\" or fewer frames"});
   }
   std::string bytes = "glTF";
   append_u32(bytes, 2);
@@ -189,7 +200,8 @@ std::string glb_bytes(const GltfDocument& document, Draft& draft) {
 
 }  // namespace
 
-std::string write_morph_glb(const GltfFile& source, const MeshMorph& morph, const std::string& generator) {
+std::string write_morph_glb(const GltfFile& source, const MeshMorph& morph,
+                            const std::string& generator) {
   const GltfDocument& document = *source;
   Draft draft = join_buffers(document);
   embed_images(document, draft);

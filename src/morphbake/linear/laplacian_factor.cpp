@@ -26,7 +26,8 @@ struct LaplacianFactor::Cholmod {
   int free_count = 0;
 
   Cholmod() {
-    // One thread: with several, OpenBLAS splits sums by their number, and so would the bytes differ.
+    // One thread: with several, OpenBLAS splits sums by their number, and so would the bytes
+    // differ.
     openblas_set_num_threads(1);
     cholmod_start(&common);
     common.print = 0;
@@ -43,8 +44,10 @@ struct LaplacianFactor::Cholmod {
 
   void check(bool succeeded, const char* action) const {
     if (succeeded && common.status >= CHOLMOD_OK && common.status != CHOLMOD_NOT_POSDEF) return;
-    if (common.status == CHOLMOD_OUT_OF_MEMORY) fail("linear.out-of-memory", "not enough memory to factorise");
-    fail("linear.not-definite", fmt::format("the Laplacian cannot be {} (status {})", action, common.status));
+    if (common.status == CHOLMOD_OUT_OF_MEMORY)
+      fail("linear.out-of-memory", "not enough memory to factorise");
+    fail("linear.not-definite",
+         fmt::format("the Laplacian cannot be {} (status {})", action, common.status));
   }
 };
 
@@ -52,7 +55,8 @@ LaplacianFactor::LaplacianFactor(LaplacianFactor&&) noexcept = default;
 LaplacianFactor& LaplacianFactor::operator=(LaplacianFactor&&) noexcept = default;
 LaplacianFactor::~LaplacianFactor() = default;
 
-LaplacianFactor::LaplacianFactor(const Eigen::SparseMatrix<double>& K_L, const Components& components)
+LaplacianFactor::LaplacianFactor(const Eigen::SparseMatrix<double>& K_L,
+                                 const Components& components)
     : cholmod_(std::make_unique<Cholmod>()) {
   std::vector<bool> is_grounded(static_cast<std::size_t>(components.count), false);
   cholmod_->free_row.resize(components.label.size());
@@ -103,8 +107,8 @@ Eigen::MatrixXd LaplacianFactor::solve(const Eigen::MatrixXd& b) const {
   view.dtype = CHOLMOD_DOUBLE;
   cholmod_dense* solution = cholmod_solve(CHOLMOD_A, cholmod_->factor, &view, &cholmod_->common);
   cholmod_->check(solution != nullptr, "solved");
-  const Eigen::Map<const Eigen::MatrixXd> free_x(static_cast<const double*>(solution->x), free_b.rows(),
-                                                 free_b.cols());
+  const Eigen::Map<const Eigen::MatrixXd> free_x(static_cast<const double*>(solution->x),
+                                                 free_b.rows(), free_b.cols());
   Eigen::MatrixXd x = Eigen::MatrixXd::Zero(b.rows(), b.cols());
   for (std::size_t v = 0; v < free_row.size(); ++v) {
     if (free_row[v] >= 0) x.row(static_cast<Eigen::Index>(v)) = free_x.row(free_row[v]);

@@ -10,9 +10,9 @@ namespace morphbake {
 
 /// A Cholesky factor of K_L, made once and used for every right-hand side.
 ///
-/// K_L is singular: one constant a component. The first vertex of each component is set to 0 and its
-/// equation left out. That is exact when the right-hand side sums to 0 over the component, which
-/// blend_edge_differences guarantees; the caller adds the translation that it wants.
+/// K_L is singular: one constant a component. The first vertex of each component is set to 0 and
+/// its equation left out. That is exact when the right-hand side sums to 0 over the component,
+/// which blend_edge_differences guarantees; the caller adds the translation that it wants.
 class LaplacianFactor {
  public:
   /// @param K_L         #V by #V, symmetric_laplacian

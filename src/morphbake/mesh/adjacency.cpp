@@ -71,8 +71,8 @@ void keep_first(std::vector<T>& list, const T& place, int limit) {
 }
 
 /// Corners around one vertex belong to one fan when triangles connect them edge by edge.
-std::vector<int> find_pinched_vertices(const Connectivity& connectivity, const std::vector<Side>& sides,
-                                       int limit) {
+std::vector<int> find_pinched_vertices(const Connectivity& connectivity,
+                                       const std::vector<Side>& sides, int limit) {
   const Triangles& triangles = connectivity.triangles;
   DisjointSets fans(static_cast<std::size_t>(3 * triangles.rows()));
   const auto corner_of = [&](int f, int vertex) {
@@ -155,7 +155,8 @@ ManifoldDefects find_manifold_defects(const Connectivity& connectivity, int limi
   std::vector<bool> used(static_cast<std::size_t>(connectivity.vertex_count), false);
   for (int f = 0; f < connectivity.triangles.rows(); ++f) {
     const Eigen::RowVector3i t = connectivity.triangles.row(f);
-    if (t(0) == t(1) || t(1) == t(2) || t(2) == t(0)) keep_first(defects.degenerate_triangles, f, limit);
+    if (t(0) == t(1) || t(1) == t(2) || t(2) == t(0))
+      keep_first(defects.degenerate_triangles, f, limit);
     for (int k = 0; k < 3; ++k) used[static_cast<std::size_t>(t(k))] = true;
   }
   for (int v = 0; v < connectivity.vertex_count; ++v) {

@@ -31,9 +31,10 @@ Components connected_components(const OneRings& rings);
 /// What makes a triangle list no oriented manifold; each list holds the first few places.
 struct ManifoldDefects {
   std::vector<int> degenerate_triangles;  ///< repeat a vertex
-  std::vector<int> misoriented_triangles; ///< run along an edge in the same direction as a neighbour
+  std::vector<int>
+      misoriented_triangles;  ///< run along an edge in the same direction as a neighbour
   std::vector<Eigen::Vector2i> crowded_edges;  ///< shared by more than two triangles
-  std::vector<int> pinched_vertices;      ///< whose triangles form more than one fan
+  std::vector<int> pinched_vertices;           ///< whose triangles form more than one fan
   std::vector<int> unused_vertices;
 
   bool none() const;

@@ -18,7 +18,8 @@ Normals corner_group_normals(const Positions& positions, const Triangles& triang
       const Eigen::RowVector3d u = corners[(k + 1) % 3] - corners[k];
       const Eigen::RowVector3d v = corners[(k + 2) % 3] - corners[k];
       const double angle = std::atan2(doubled_area, u.dot(v));
-      sums.row(corner_groups[static_cast<std::size_t>(3 * f + k)]) += (angle / doubled_area) * area_normal;
+      sums.row(corner_groups[static_cast<std::size_t>(3 * f + k)]) +=
+          (angle / doubled_area) * area_normal;
     }
   }
   for (int g = 0; g < group_count; ++g) {
@@ -31,7 +32,8 @@ Normals corner_group_normals(const Positions& positions, const Triangles& triang
 Eigen::Vector3d carry_normal(const Eigen::Vector3d& from, const Eigen::Vector3d& to,
                              const Eigen::Vector3d& normal) {
   const double cosine = from.dot(to);
-  // Opposite directions have no unique least rotation: mirroring through the normal plane is as good.
+  // Opposite directions have no unique least rotation: mirroring through the normal plane is as
+  // good.
   if (cosine < -1 + 1e-12) return normal - 2 * normal.dot(from) * from;
   const Eigen::Vector3d axis = from.cross(to);
   return cosine * normal + axis.cross(normal) + axis * (axis.dot(normal) / (1 + cosine));

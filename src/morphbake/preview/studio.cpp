@@ -63,7 +63,8 @@ Studio make_studio(const TurntableOptions& options) {
   studio.key_light = Eigen::Array3f(1.0f, 0.965f, 0.915f) * 0.80f;
   studio.room = room_harmonics();
   for (std::size_t k = 0; k < 3; ++k) {
-    studio.backdrop[static_cast<int>(k)] = srgb_to_linear(static_cast<float>(options.background[k]));
+    studio.backdrop[static_cast<int>(k)] =
+        srgb_to_linear(static_cast<float>(options.background[k]));
   }
   return studio;
 }

@@ -31,8 +31,9 @@ struct TurntableOptions {
   /// it) or lies still below the whole motion (jumps are seen).
   bool floor_follows = true;
 
-  std::array<double, 3> background = {0.925, 0.92, 0.91};  ///< sRGB of the backdrop's middle, 0 to 1
-  int threads = 0;                                         ///< 0: all cores. Never changes a pixel.
+  std::array<double, 3> background = {0.925, 0.92,
+                                      0.91};  ///< sRGB of the backdrop's middle, 0 to 1
+  int threads = 0;                            ///< 0: all cores. Never changes a pixel.
 };
 
 /// Renders a loop: the camera orbits while the morph plays to its end and back (or once, when its

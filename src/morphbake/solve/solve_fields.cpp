@@ -24,7 +24,8 @@ Eigen::VectorXd sums_by_component(const Components& components, const Eigen::Vec
 }
 
 /// sum_s T_s V_s, vertex by vertex: what linear interpolation of positions would give.
-Positions blend_positions(const std::vector<Positions>& geometries, const Eigen::MatrixXd& weights) {
+Positions blend_positions(const std::vector<Positions>& geometries,
+                          const Eigen::MatrixXd& weights) {
   Positions blended = Positions::Zero(weights.cols(), 3);
   for (std::size_t s = 0; s < geometries.size(); ++s) {
     const Eigen::VectorXd share = weights.row(static_cast<Eigen::Index>(s));
@@ -34,8 +35,8 @@ Positions blend_positions(const std::vector<Positions>& geometries, const Eigen:
 }
 
 /// Translates every component of `positions` so that its weighted centroid is that of `reference`.
-void align_centroids(const Components& components, const TranslationGauge& gauge, const Positions& reference,
-                     Positions& positions) {
+void align_centroids(const Components& components, const TranslationGauge& gauge,
+                     const Positions& reference, Positions& positions) {
   Positions offsets = Positions::Zero(components.count, 3);
   for (Eigen::Index v = 0; v < positions.rows(); ++v) {
     const int component = components.label[static_cast<std::size_t>(v)];
@@ -62,7 +63,8 @@ std::vector<bool> uniform_components(const Components& components, const Eigen::
 TranslationGauge choose_gauge(const MorphableMesh& mesh, const Components& components,
                               const std::vector<TransitionField>& fields) {
   Eigen::VectorXd areas = Eigen::VectorXd::Zero(mesh.connectivity.vertex_count);
-  for (const Positions& geometry : mesh.geometries) areas += vertex_areas(geometry, mesh.connectivity.triangles);
+  for (const Positions& geometry : mesh.geometries)
+    areas += vertex_areas(geometry, mesh.connectivity.triangles);
   // Surfaces without any area still have a centroid: that of their vertices.
   Eigen::VectorXd whole = sums_by_component(components, areas);
   for (Eigen::Index v = 0; v < areas.size(); ++v) {
@@ -91,19 +93,23 @@ LaplacianSystem::LaplacianSystem(const MorphableMesh& mesh)
       components_(connected_components(rings_)),
       factor_(symmetric_laplacian(rings_), components_) {}
 
-Positions LaplacianSystem::solve(const Eigen::MatrixXd& weights, const TranslationGauge& gauge) const {
+Positions LaplacianSystem::solve(const Eigen::MatrixXd& weights,
+                                 const TranslationGauge& gauge) const {
   const Positions b = blend_edge_differences(rings_, mesh_.geometries, weights);
   Positions solution = factor_.solve(b);
   align_centroids(components_, gauge, blend_positions(mesh_.geometries, weights), solution);
   if (!solution.allFinite()) {
-    throw BakeError(Problem{Severity::Error, "solve.not-finite", {},
+    throw BakeError(Problem{Severity::Error,
+                            "solve.not-finite",
+                            {},
                             "the solved positions are not finite numbers",
                             "the sources' coordinates are too large for double precision"});
   }
   return solution;
 }
 
-Positions LaplacianSystem::solve_or_blend(const Eigen::MatrixXd& weights, const TranslationGauge& gauge) const {
+Positions LaplacianSystem::solve_or_blend(const Eigen::MatrixXd& weights,
+                                          const TranslationGauge& gauge) const {
   const std::vector<bool> uniform = uniform_components(components_, weights);
   const bool needs_solve = std::find(uniform.begin(), uniform.end(), false) != uniform.end();
   const Positions blended = blend_positions(mesh_.geometries, weights);

@@ -9,13 +9,15 @@
 
 namespace morphbake {
 
-/// Where a component's translation comes from, chosen once for the whole timeline: its area-weighted
-/// centroid over the vertices with a weight follows the mixed sources.
+/// Where a component's translation comes from, chosen once for the whole timeline: its
+/// area-weighted centroid over the vertices with a weight follows the mixed sources.
 struct TranslationGauge {
-  Eigen::VectorXd weights;  ///< #V, summing to 1 over each component; 0 for vertices that do not count
+  Eigen::VectorXd
+      weights;  ///< #V, summing to 1 over each component; 0 for vertices that do not count
 };
 
-/// Counts what no field but the first ever touches, if that is 5 % of a component's area, else all of it.
+/// Counts what no field but the first ever touches, if that is 5 % of a component's area, else all
+/// of it.
 ///
 /// @param fields  of the whole timeline
 /// @see           docs/method.md
@@ -36,8 +38,8 @@ class LaplacianSystem {
   /// @throws BakeError "solve.not-finite"
   Positions solve(const Eigen::MatrixXd& weights, const TranslationGauge& gauge) const;
 
-  /// As solve; components in which every vertex has the same shares take the linear blend itself, which is
-  /// the solution (Alexa 2003, section 5) without its rounding.
+  /// As solve; components in which every vertex has the same shares take the linear blend itself,
+  /// which is the solution (Alexa 2003, section 5) without its rounding.
   Positions solve_or_blend(const Eigen::MatrixXd& weights, const TranslationGauge& gauge) const;
 
  private:

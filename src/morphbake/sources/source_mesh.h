@@ -16,9 +16,10 @@ struct SourceMesh {
   std::string name;
   GltfFile file;
   SourceGeometry geometry;
-  Positions positions;      ///< #R by 3, render vertices in scene space
-  Triangles triangles;      ///< #F by 3, render vertices, the file's winding
-  std::vector<int> welded;  ///< #R, render vertex -> welded vertex: equal exactly when the positions are
+  Positions positions;  ///< #R by 3, render vertices in scene space
+  Triangles triangles;  ///< #F by 3, render vertices, the file's winding
+  std::vector<int>
+      welded;  ///< #R, render vertex -> welded vertex: equal exactly when the positions are
   int welded_count = 0;
 };
 

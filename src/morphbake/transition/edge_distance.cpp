@@ -11,7 +11,8 @@ namespace morphbake {
 Eigen::VectorXd edge_distances(const Mesh& mesh, const SurfacePoint& centre) {
   const auto vertex_count = static_cast<int>(mesh.positions.rows());
   const OneRings rings = one_rings({vertex_count, mesh.triangles});
-  Eigen::VectorXd distance = Eigen::VectorXd::Constant(vertex_count, std::numeric_limits<double>::infinity());
+  Eigen::VectorXd distance =
+      Eigen::VectorXd::Constant(vertex_count, std::numeric_limits<double>::infinity());
   using Entry = std::pair<double, int>;
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> front;
   const auto reach = [&](int vertex, double length) {
@@ -35,7 +36,8 @@ Eigen::VectorXd edge_distances(const Mesh& mesh, const SurfacePoint& centre) {
     const auto v = static_cast<std::size_t>(vertex);
     for (int n = rings.offsets[v]; n < rings.offsets[v + 1]; ++n) {
       const int neighbour = rings.neighbours[static_cast<std::size_t>(n)];
-      reach(neighbour, length + (mesh.positions.row(neighbour) - mesh.positions.row(vertex)).norm());
+      reach(neighbour,
+            length + (mesh.positions.row(neighbour) - mesh.positions.row(vertex)).norm());
     }
   }
   return distance;

@@ -46,7 +46,8 @@ class RegionTable {
   }
 
   std::vector<Eigen::VectorXd> all() {
-    for (std::size_t region = 0; region < distances_.size(); ++region) distance(static_cast<int>(region));
+    for (std::size_t region = 0; region < distances_.size(); ++region)
+      distance(static_cast<int>(region));
     return std::move(distances_);
   }
 

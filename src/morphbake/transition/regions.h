@@ -9,7 +9,8 @@ namespace morphbake {
 
 /// d of every region: 0 inside, 1 outside, between them across the soft ring.
 ///
-/// A ball is measured on the geometry of the source that it names and carried to K vertex by vertex.
+/// A ball is measured on the geometry of the source that it names and carried to K vertex by
+/// vertex.
 /// @return  one a region: #V, each in [0, 1]
 /// @see     Alexa 2003, section 5.1
 std::vector<Eigen::VectorXd> region_distances(const MorphableMesh& mesh, const Recipe& recipe);

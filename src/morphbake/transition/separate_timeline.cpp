@@ -3,9 +3,9 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <map>
-#include <cmath>
 
 #include "morphbake/diagnostics/problem.h"
 
@@ -58,10 +58,12 @@ void add_term(Terms& terms, const Factors& factors, const Eigen::MatrixXd& field
 
 void check_term_count(const Recipe& recipe, std::size_t count) {
   if (count <= kFieldLimit) return;
-  throw BakeError(Problem{Severity::Error, "transition.too-many-overlaps",
-                          {recipe.file.string(), "/timeline/tracks", 0, 0},
-                          fmt::format("the tracks overlap in more than {} combinations", kFieldLimit - 1),
-                          "let tracks that share a region follow one another instead of running at once"});
+  throw BakeError(
+      Problem{Severity::Error,
+              "transition.too-many-overlaps",
+              {recipe.file.string(), "/timeline/tracks", 0, 0},
+              fmt::format("the tracks overlap in more than {} combinations", kFieldLimit - 1),
+              "let tracks that share a region follow one another instead of running at once"});
 }
 
 /// Expands T <- (1 - a m) T + a m S track by track, with a(t) kept symbolic and m = 1 - d.
@@ -76,7 +78,8 @@ Terms expand_tracks(const Recipe& recipe, const std::vector<Eigen::VectorXd>& re
   for (std::size_t i = 0; i < tracks.size(); ++i) {
     const Edit& edit = tracks[i].edit;
     Eigen::RowVectorXd m = Eigen::RowVectorXd::Ones(vertex_count);
-    if (edit.region >= 0) m = 1 - regions[static_cast<std::size_t>(edit.region)].transpose().array();
+    if (edit.region >= 0)
+      m = 1 - regions[static_cast<std::size_t>(edit.region)].transpose().array();
     const Terms before = terms;
     const Factors alone = {static_cast<int>(i)};
     add_term(terms, alone, shares(edit.to) * m);
@@ -94,8 +97,8 @@ SeparableTimeline separate_tracks(const Recipe& recipe, const std::vector<Eigen:
                                   Eigen::Index vertex_count) {
   SeparableTimeline separable;
   for (auto& [factors, field] : expand_tracks(recipe, regions, vertex_count)) {
-    // Terms that cancelled, as where a track leads to what is there already, move nothing. Rounding of
-    // a sum of shares is at most a few epsilon.
+    // Terms that cancelled, as where a track leads to what is there already, move nothing. Rounding
+    // of a sum of shares is at most a few epsilon.
     if (!factors.empty() && field.cwiseAbs().maxCoeff() < 1e-14) continue;
     separable.fields.push_back({joined_names(factors, recipe.timeline.tracks), field, factors});
   }
@@ -106,12 +109,15 @@ SeparableTimeline separate_keys(const Recipe& recipe, const std::vector<Eigen::V
                                 Eigen::Index vertex_count) {
   const std::vector<Key>& keys = recipe.timeline.keys;
   const int first = keys.front().state;
-  const auto state = [&](int index) -> const State& { return recipe.states[static_cast<std::size_t>(index)]; };
+  const auto state = [&](int index) -> const State& {
+    return recipe.states[static_cast<std::size_t>(index)];
+  };
   const TransitionState start = state_transition(state(first), regions, vertex_count);
   SeparableTimeline separable{{{state(first).name, start, {first}}}};
   for (const Key& key : keys) {
-    const bool known = std::any_of(separable.fields.begin(), separable.fields.end(),
-                                   [&](const TransitionField& field) { return field.factors[0] == key.state; });
+    const bool known =
+        std::any_of(separable.fields.begin(), separable.fields.end(),
+                    [&](const TransitionField& field) { return field.factors[0] == key.state; });
     if (known) continue;
     const TransitionState T = state_transition(state(key.state), regions, vertex_count);
     separable.fields.push_back({state(key.state).name, T - start, {key.state}});
@@ -120,8 +126,8 @@ SeparableTimeline separate_keys(const Recipe& recipe, const std::vector<Eigen::V
 }
 
 /// Shares of the two keys around `time`, added up per state.
-Eigen::VectorXd key_coefficients(const Timeline& timeline, const SeparableTimeline& separable, double time,
-                                 bool before) {
+Eigen::VectorXd key_coefficients(const Timeline& timeline, const SeparableTimeline& separable,
+                                 double time, bool before) {
   const std::vector<Key>& keys = timeline.keys;
   Eigen::VectorXd phi = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(separable.fields.size()));
   const auto add = [&](const Key& key, double share) {
@@ -151,8 +157,8 @@ double track_amount_before(const Track& track, double time) {
   return track_amount(track, time);
 }
 
-Eigen::VectorXd track_coefficients(const Timeline& timeline, const SeparableTimeline& separable, double time,
-                                   bool before) {
+Eigen::VectorXd track_coefficients(const Timeline& timeline, const SeparableTimeline& separable,
+                                   double time, bool before) {
   Eigen::VectorXd phi = Eigen::VectorXd::Ones(static_cast<Eigen::Index>(separable.fields.size()));
   for (std::size_t k = 1; k < separable.fields.size(); ++k) {
     for (const int track : separable.fields[k].factors) {
@@ -164,26 +170,28 @@ Eigen::VectorXd track_coefficients(const Timeline& timeline, const SeparableTime
   return phi;
 }
 
-Eigen::VectorXd coefficients(const Timeline& timeline, const SeparableTimeline& separable, double time,
-                             bool before) {
+Eigen::VectorXd coefficients(const Timeline& timeline, const SeparableTimeline& separable,
+                             double time, bool before) {
   return timeline.keys.empty() ? track_coefficients(timeline, separable, time, before)
                                : key_coefficients(timeline, separable, time, before);
 }
 
 }  // namespace
 
-SeparableTimeline separate_timeline(const Recipe& recipe, const std::vector<Eigen::VectorXd>& regions,
+SeparableTimeline separate_timeline(const Recipe& recipe,
+                                    const std::vector<Eigen::VectorXd>& regions,
                                     Eigen::Index vertex_count) {
   return recipe.timeline.keys.empty() ? separate_tracks(recipe, regions, vertex_count)
                                       : separate_keys(recipe, regions, vertex_count);
 }
 
-Eigen::VectorXd field_coefficients(const Timeline& timeline, const SeparableTimeline& separable, double time) {
+Eigen::VectorXd field_coefficients(const Timeline& timeline, const SeparableTimeline& separable,
+                                   double time) {
   return coefficients(timeline, separable, time, false);
 }
 
-Eigen::VectorXd field_coefficients_before(const Timeline& timeline, const SeparableTimeline& separable,
-                                          double time) {
+Eigen::VectorXd field_coefficients_before(const Timeline& timeline,
+                                          const SeparableTimeline& separable, double time) {
   return coefficients(timeline, separable, time, true);
 }
 

@@ -11,27 +11,31 @@ namespace morphbake {
 struct TransitionField {
   std::string name;         ///< the track's or the state's; products of tracks are joined by "+"
   Eigen::MatrixXd weights;  ///< #sources by #V; columns of the first field sum to 1, of others to 0
-  std::vector<int> factors; ///< tracks whose amounts are multiplied, or one state (with keys)
+  std::vector<int> factors;  ///< tracks whose amounts are multiplied, or one state (with keys)
 };
 
-/// T(t) = fields[0] + sum_k phi_k(t) fields[k]: fixed fields with coefficients that depend on time alone.
+/// T(t) = fields[0] + sum_k phi_k(t) fields[k]: fixed fields with coefficients that depend on time
+/// alone.
 ///
-/// Right-hand sides are linear in T and the matrix is constant, so one solve a field gives every frame.
-/// Tracks give one field each, and products where tracks overlap in space and time; keys one a state.
+/// Right-hand sides are linear in T and the matrix is constant, so one solve a field gives every
+/// frame. Tracks give one field each, and products where tracks overlap in space and time; keys one
+/// a state.
 struct SeparableTimeline {
   std::vector<TransitionField> fields;
 };
 
 /// @param regions  d of every region
 /// @throws BakeError "transition.too-many-overlaps" beyond 255 fields
-SeparableTimeline separate_timeline(const Recipe& recipe, const std::vector<Eigen::VectorXd>& regions,
+SeparableTimeline separate_timeline(const Recipe& recipe,
+                                    const std::vector<Eigen::VectorXd>& regions,
                                     Eigen::Index vertex_count);
 
 /// phi at `time`: one a field, the first is 1, all in [0, 1].
-Eigen::VectorXd field_coefficients(const Timeline& timeline, const SeparableTimeline& separable, double time);
+Eigen::VectorXd field_coefficients(const Timeline& timeline, const SeparableTimeline& separable,
+                                   double time);
 
 /// Coefficients just before `time`, where a step has not happened yet.
-Eigen::VectorXd field_coefficients_before(const Timeline& timeline, const SeparableTimeline& separable,
-                                          double time);
+Eigen::VectorXd field_coefficients_before(const Timeline& timeline,
+                                          const SeparableTimeline& separable, double time);
 
 }  // namespace morphbake

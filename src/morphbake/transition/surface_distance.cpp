@@ -7,6 +7,7 @@
 #include <CGAL/Simple_cartesian.h>
 #include <CGAL/Surface_mesh.h>
 #include <CGAL/boost/graph/Euler_operations.h>
+
 #include <Eigen/Geometry>
 #include <array>
 #include <limits>
@@ -22,8 +23,8 @@ using Point = Kernel::Point_3;
 using Surface = CGAL::Surface_mesh<Point>;
 using VertexIndex = Surface::Vertex_index;
 
-/// A centre this close to an edge or a vertex, in barycentric coordinates, lies on it: splitting off a
-/// thinner triangle would only add a needle.
+/// A centre this close to an edge or a vertex, in barycentric coordinates, lies on it: splitting
+/// off a thinner triangle would only add a needle.
 constexpr double kOnEdge = 1e-3;
 
 Surface to_cgal(const Mesh& mesh) {
@@ -35,7 +36,9 @@ Surface to_cgal(const Mesh& mesh) {
     surface.add_vertex(Point(mesh.positions(v, 0), mesh.positions(v, 1), mesh.positions(v, 2)));
   }
   for (int f = 0; f < mesh.triangles.rows(); ++f) {
-    const auto corner = [&](int k) { return VertexIndex(static_cast<unsigned>(mesh.triangles(f, k))); };
+    const auto corner = [&](int k) {
+      return VertexIndex(static_cast<unsigned>(mesh.triangles(f, k)));
+    };
     surface.add_face(corner(0), corner(1), corner(2));
   }
   return surface;
@@ -63,11 +66,13 @@ VertexIndex split_edge(Surface& surface, Surface::Halfedge_index edge, const Poi
   return vertex;
 }
 
-/// Makes a point of the original mesh a vertex of `surface`, whose earlier splits must be elsewhere.
+/// Makes a point of the original mesh a vertex of `surface`, whose earlier splits must be
+/// elsewhere.
 VertexIndex insert_point(Surface& surface, const Mesh& mesh, const SurfacePoint& at) {
   std::array<VertexIndex, 3> corners;
   for (int k = 0; k < 3; ++k) {
-    corners[static_cast<std::size_t>(k)] = VertexIndex(static_cast<unsigned>(mesh.triangles(at.triangle, k)));
+    corners[static_cast<std::size_t>(k)] =
+        VertexIndex(static_cast<unsigned>(mesh.triangles(at.triangle, k)));
   }
   int near = 0;  // how many corners have no share to speak of
   int last_near = 0, last_far = 0;
@@ -89,7 +94,8 @@ VertexIndex insert_point(Surface& surface, const Mesh& mesh, const SurfacePoint&
   return surface.target(spoke);
 }
 
-/// The part of a mesh that is connected with one triangle: the heat method divides by zero elsewhere.
+/// The part of a mesh that is connected with one triangle: the heat method divides by zero
+/// elsewhere.
 struct Part {
   Mesh mesh;
   std::vector<int> vertex_of_part;  ///< vertex of the part -> vertex of the whole
@@ -109,7 +115,8 @@ Part part_of_component(const Mesh& mesh, const Components& components, int label
     if (number[static_cast<std::size_t>(mesh.triangles(f, 0))] >= 0) kept.push_back(f);
   }
   part.mesh.triangles = mesh.triangles(kept, Eigen::all);
-  for (int& vertex : part.mesh.triangles.reshaped()) vertex = number[static_cast<std::size_t>(vertex)];
+  for (int& vertex : part.mesh.triangles.reshaped())
+    vertex = number[static_cast<std::size_t>(vertex)];
   return part;
 }
 
@@ -124,7 +131,8 @@ Eigen::VectorXd heat_distances(const Mesh& mesh, const SurfacePoint& centre) {
   auto distance = surface.add_property_map<VertexIndex, double>("v:distance", 0).first;
   heat.estimate_geodesic_distances(distance);
   Eigen::VectorXd result(mesh.positions.rows());
-  for (int v = 0; v < result.size(); ++v) result(v) = distance[VertexIndex(static_cast<unsigned>(v))];
+  for (int v = 0; v < result.size(); ++v)
+    result(v) = distance[VertexIndex(static_cast<unsigned>(v))];
   // The heat method fixes its constant at the least value, which need not be at the centre itself.
   return (result.array() - distance[source]).max(0);
 }
@@ -136,7 +144,8 @@ Eigen::Vector3d barycentric(const Mesh& mesh, int triangle, const Eigen::Vector3
     spokes.col(k) = mesh.positions.row(mesh.triangles(triangle, k)).transpose() - point;
   }
   Eigen::Vector3d areas;
-  for (int k = 0; k < 3; ++k) areas(k) = spokes.col((k + 1) % 3).cross(spokes.col((k + 2) % 3)).norm();
+  for (int k = 0; k < 3; ++k)
+    areas(k) = spokes.col((k + 1) % 3).cross(spokes.col((k + 2) % 3)).norm();
   // In a triangle without area every corner is as good.
   return areas.sum() > 0 ? Eigen::Vector3d(areas / areas.sum()) : Eigen::Vector3d(1, 0, 0);
 }
@@ -154,12 +163,14 @@ SurfacePoint closest_point(const Mesh& mesh, const Eigen::Vector3d& position) {
   return {triangle, barycentric(mesh, triangle, Eigen::Vector3d(point.x(), point.y(), point.z()))};
 }
 
-std::vector<Eigen::VectorXd> geodesic_distances(const Mesh& mesh, const std::vector<SurfacePoint>& centres) {
+std::vector<Eigen::VectorXd> geodesic_distances(const Mesh& mesh,
+                                                const std::vector<SurfacePoint>& centres) {
   const Components components =
       connected_components(one_rings({static_cast<int>(mesh.positions.rows()), mesh.triangles}));
   std::vector<Eigen::VectorXd> distances;
   for (const SurfacePoint& centre : centres) {
-    const int label = components.label[static_cast<std::size_t>(mesh.triangles(centre.triangle, 0))];
+    const int label =
+        components.label[static_cast<std::size_t>(mesh.triangles(centre.triangle, 0))];
     const Part part = part_of_component(mesh, components, label);
     SurfacePoint at = centre;
     // Triangles keep their order in the part, so the centre's is found by counting.
@@ -169,9 +180,12 @@ std::vector<Eigen::VectorXd> geodesic_distances(const Mesh& mesh, const std::vec
     }
     const Eigen::VectorXd inside = heat_distances(part.mesh, at);
     if (!inside.allFinite()) {
-      throw BakeError(Problem{Severity::Error, "transition.distance-failed", {},
-                              "the geodesic distance is not finite: the surface has triangles without area",
-                              "set \"distance\": \"edges\" for the region"});
+      throw BakeError(
+          Problem{Severity::Error,
+                  "transition.distance-failed",
+                  {},
+                  "the geodesic distance is not finite: the surface has triangles without area",
+                  "set \"distance\": \"edges\" for the region"});
     }
     Eigen::VectorXd& whole = distances.emplace_back(
         Eigen::VectorXd::Constant(mesh.positions.rows(), std::numeric_limits<double>::infinity()));

@@ -11,11 +11,13 @@ TransitionState uniform_transition(const Shares& shares, Eigen::Index vertex_cou
       .replicate(1, vertex_count);
 }
 
-TransitionState transition_between_keys(const Recipe& recipe, const std::vector<Eigen::VectorXd>& regions,
+TransitionState transition_between_keys(const Recipe& recipe,
+                                        const std::vector<Eigen::VectorXd>& regions,
                                         Eigen::Index vertex_count, double time) {
   const std::vector<Key>& keys = recipe.timeline.keys;
   const auto state = [&](const Key& key) {
-    return state_transition(recipe.states[static_cast<std::size_t>(key.state)], regions, vertex_count);
+    return state_transition(recipe.states[static_cast<std::size_t>(key.state)], regions,
+                            vertex_count);
   };
   const auto next = std::upper_bound(keys.begin(), keys.end(), time,
                                      [](double t, const Key& key) { return t < key.time; });
@@ -72,7 +74,8 @@ TransitionState state_transition(const State& state, const std::vector<Eigen::Ve
 
 TransitionState transition_at(const Recipe& recipe, const std::vector<Eigen::VectorXd>& regions,
                               Eigen::Index vertex_count, double time) {
-  if (!recipe.timeline.keys.empty()) return transition_between_keys(recipe, regions, vertex_count, time);
+  if (!recipe.timeline.keys.empty())
+    return transition_between_keys(recipe, regions, vertex_count, time);
   TransitionState T = uniform_transition(recipe.timeline.start, vertex_count);
   for (const Track& track : recipe.timeline.tracks) {
     T = apply_edit(T, track.edit, track_amount(track, time), regions);

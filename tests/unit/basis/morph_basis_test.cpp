@@ -35,7 +35,8 @@ double key_error(const OneTrack& track, const MorphBasis& basis) {
   double error = 0;
   for (double time = 0; time <= 2; time += 0.00137) {
     const double exact = field_coefficients(track.timeline, track.separable, time)(1);
-    error = std::max(error, std::abs(interpolate_keys(basis.key_times, basis.key_weights, time)(0) - exact));
+    error = std::max(
+        error, std::abs(interpolate_keys(basis.key_times, basis.key_weights, time)(0) - exact));
   }
   return error;
 }
@@ -92,7 +93,8 @@ TEST(FrameBasis, HoldsEveryFrame) {
   for (const double time : times) {
     const Positions exact =
         combine_shapes(track.shapes, field_coefficients(track.timeline, track.separable, time));
-    const auto weights = interpolate_keys(basis.key_times, basis.key_weights, static_cast<float>(time));
+    const auto weights =
+        interpolate_keys(basis.key_times, basis.key_weights, static_cast<float>(time));
     EXPECT_LT(largest_distance(combine_targets(basis, weights), exact), 1e-6);
   }
 }

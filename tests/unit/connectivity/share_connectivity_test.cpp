@@ -47,14 +47,19 @@ TEST(ShareConnectivity, WeldsOnlyWhatLiesTogetherInEverySource) {
   closed.triangles << 0, 1, 2, 3, 4, 5;
   Mesh open = closed;
   open.positions.bottomRows(3).col(1).array() -= 0.5;
-  EXPECT_EQ(share_connectivity({source_of(closed, "a"), source_of(closed, "b")}).connectivity.vertex_count, 4);
-  EXPECT_EQ(share_connectivity({source_of(closed, "a"), source_of(open, "b")}).connectivity.vertex_count, 6);
+  EXPECT_EQ(share_connectivity({source_of(closed, "a"), source_of(closed, "b")})
+                .connectivity.vertex_count,
+            4);
+  EXPECT_EQ(
+      share_connectivity({source_of(closed, "a"), source_of(open, "b")}).connectivity.vertex_count,
+      6);
 }
 
 TEST(ShareConnectivity, SourcesMaySplitVerticesDifferently) {
   const Mesh sphere = test::sphere(8, 10);
   const Mesh other = deformed(sphere, 1);
-  const MorphableMesh mesh = share_connectivity({source_of(split_apart(sphere), "a"), source_of(other, "b")});
+  const MorphableMesh mesh =
+      share_connectivity({source_of(split_apart(sphere), "a"), source_of(other, "b")});
   EXPECT_EQ(mesh.connectivity.vertex_count, sphere.positions.rows());
   EXPECT_EQ(mesh.vertex_of_render.size(), static_cast<std::size_t>(sphere.triangles.size()));
   for (int f = 0; f < sphere.triangles.rows(); ++f) {
@@ -66,15 +71,16 @@ TEST(ShareConnectivity, SourcesMaySplitVerticesDifferently) {
   }
 }
 
-
 TEST(ShareConnectivity, DropsDegenerateTriangles) {
   Mesh mesh = test::sphere(8, 10);
   mesh.triangles.conservativeResize(mesh.triangles.rows() + 1, 3);
   mesh.triangles.bottomRows(1) << 3, 3, 4;
-  const MorphableMesh shared = share_connectivity({source_of(mesh, "a"), source_of(deformed(mesh, 2), "b")});
+  const MorphableMesh shared =
+      share_connectivity({source_of(mesh, "a"), source_of(deformed(mesh, 2), "b")});
   EXPECT_EQ(shared.dropped_triangles, 1);
   EXPECT_EQ(shared.connectivity.triangles.rows(), mesh.triangles.rows() - 1);
-  EXPECT_EQ(shared.render_of_corner.size(), static_cast<std::size_t>(shared.connectivity.triangles.size()));
+  EXPECT_EQ(shared.render_of_corner.size(),
+            static_cast<std::size_t>(shared.connectivity.triangles.size()));
 }
 
 }  // namespace

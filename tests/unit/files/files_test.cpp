@@ -9,6 +9,7 @@
 
 namespace morphbake {
 namespace fs = std::filesystem;
+
 namespace {
 
 class Files : public testing::Test {
@@ -20,7 +21,9 @@ class Files : public testing::Test {
 
   ~Files() override { fs::remove_all(folder_); }
 
-  void write(const fs::path& name, const std::string& text) const { std::ofstream(folder_ / name) << text; }
+  void write(const fs::path& name, const std::string& text) const {
+    std::ofstream(folder_ / name) << text;
+  }
 
   std::string code_of_reading(const fs::path& name, std::uintmax_t limit) const {
     try {
@@ -35,8 +38,8 @@ class Files : public testing::Test {
     return static_cast<std::size_t>(std::distance(fs::recursive_directory_iterator(folder_), {}));
   }
 
-  fs::path folder_ = fs::path(testing::TempDir()) /
-                     testing::UnitTest::GetInstance()->current_test_info()->name();
+  fs::path folder_ =
+      fs::path(testing::TempDir()) / testing::UnitTest::GetInstance()->current_test_info()->name();
 };
 
 TEST_F(Files, ReadingTellsWhatIsWrong) {
@@ -49,7 +52,8 @@ TEST_F(Files, ReadingTellsWhatIsWrong) {
 
 TEST_F(Files, NothingLeavesTheFolder) {
   fs::create_symlink("/etc", folder_ / "link");
-  for (const char* uri : {"", "/etc/passwd", "../x", "inner/../../x", "http://x/y", "data:,x", "link/passwd"}) {
+  for (const char* uri :
+       {"", "/etc/passwd", "../x", "inner/../../x", "http://x/y", "data:,x", "link/passwd"}) {
     EXPECT_EQ(inside_folder(folder_, uri), fs::path()) << uri;
   }
   EXPECT_EQ(inside_folder(folder_, "inner/./a.bin"), fs::canonical(folder_) / "inner/a.bin");

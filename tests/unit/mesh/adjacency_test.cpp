@@ -32,7 +32,8 @@ TEST(ManifoldDefects, FindsEachKind) {
 }
 
 TEST(ManifoldDefects, NoneOnManifolds) {
-  for (const Mesh& mesh : {test::tetrahedron(), test::sphere(8, 12), test::torus(7, 9), test::grid(5, 4)}) {
+  for (const Mesh& mesh :
+       {test::tetrahedron(), test::sphere(8, 12), test::torus(7, 9), test::grid(5, 4)}) {
     EXPECT_TRUE(find_manifold_defects(connectivity_of(mesh), 3).none());
   }
 }
@@ -40,7 +41,8 @@ TEST(ManifoldDefects, NoneOnManifolds) {
 TEST(OneRings, EulerCharacteristicTellsTheGenus) {
   const auto characteristic = [](const Mesh& mesh) {
     const OneRings rings = one_rings(connectivity_of(mesh));
-    return mesh.positions.rows() - static_cast<Eigen::Index>(rings.neighbours.size()) / 2 + mesh.triangles.rows();
+    return mesh.positions.rows() - static_cast<Eigen::Index>(rings.neighbours.size()) / 2 +
+           mesh.triangles.rows();
   };
   EXPECT_EQ(characteristic(test::sphere(8, 12)), 2);
   EXPECT_EQ(characteristic(test::torus(7, 9)), 0);
@@ -58,7 +60,8 @@ TEST(Components, CountsAndLabelsByFirstVertex) {
 TEST(BoundaryLoops, AreCounted) {
   EXPECT_EQ(count_boundary_loops(connectivity_of(test::sphere(6, 8))), 0);
   EXPECT_EQ(count_boundary_loops(connectivity_of(test::grid(4, 4))), 1);
-  EXPECT_EQ(count_boundary_loops(connectivity_of(test::joined(test::grid(4, 4), test::grid(3, 3)))), 2);
+  EXPECT_EQ(count_boundary_loops(connectivity_of(test::joined(test::grid(4, 4), test::grid(3, 3)))),
+            2);
 }
 
 }  // namespace

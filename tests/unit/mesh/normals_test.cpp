@@ -20,9 +20,10 @@ TEST(CarryNormal, TurnsAsItsReferenceTurns) {
 
 TEST(CornerGroupNormals, OfASphereAreItsPositions) {
   const Mesh mesh = test::sphere(40, 60);
-  const std::vector<int> corners(mesh.triangles.data(), mesh.triangles.data() + mesh.triangles.size());
-  const Normals normals =
-      corner_group_normals(mesh.positions, mesh.triangles, corners, static_cast<int>(mesh.positions.rows()));
+  const std::vector<int> corners(mesh.triangles.data(),
+                                 mesh.triangles.data() + mesh.triangles.size());
+  const Normals normals = corner_group_normals(mesh.positions, mesh.triangles, corners,
+                                               static_cast<int>(mesh.positions.rows()));
   EXPECT_LT((normals - mesh.positions).rowwise().norm().maxCoeff(), 0.01);
 }
 

@@ -19,7 +19,8 @@ AnimatedPrimitive patch(int columns, int rings, Place place) {
   for (int r = 0; r <= rings; ++r) {
     for (int c = 0; c <= columns; ++c) {
       const int v = r * (columns + 1) + c;
-      primitive.positions.row(v) = place(float(c) / float(columns), float(r) / float(rings)).transpose();
+      primitive.positions.row(v) =
+          place(float(c) / float(columns), float(r) / float(rings)).transpose();
       if (r == rings || c == columns) continue;
       primitive.triangles.row(face++) << v, v + columns + 1, v + 1;
       primitive.triangles.row(face++) << v + 1, v + columns + 1, v + columns + 2;

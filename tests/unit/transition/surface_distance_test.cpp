@@ -53,17 +53,16 @@ TEST(EdgeDistances, OtherComponentsAreUnreachable) {
 double plane_error(const Eigen::Vector3d& centre) {
   const Mesh mesh = test::grid(41, 41);
   const Eigen::VectorXd r = geodesic_distances(mesh, {closest_point(mesh, centre)}).front();
-  const Eigen::VectorXd exact =
-      (mesh.positions.rowwise() - centre.transpose()).rowwise().norm();
+  const Eigen::VectorXd exact = (mesh.positions.rowwise() - centre.transpose()).rowwise().norm();
   return (r - exact).cwiseAbs().maxCoeff() / 40;
 }
 
 // The heat method's error is that of its documentation: some per cent, here of the grid's width.
 TEST(GeodesicDistances, OnAPlane) {
   EXPECT_LT(plane_error({20, 20, 0}), 0.02);
-  EXPECT_LT(plane_error({17.3, 22.6, 0}), 0.02);   // inside a triangle
-  EXPECT_LT(plane_error({17.5, 22, 0}), 0.02);     // on an edge
-  EXPECT_LT(plane_error({17.5, 0, 0}), 0.03);      // on the boundary
+  EXPECT_LT(plane_error({17.3, 22.6, 0}), 0.02);  // inside a triangle
+  EXPECT_LT(plane_error({17.5, 22, 0}), 0.02);    // on an edge
+  EXPECT_LT(plane_error({17.5, 0, 0}), 0.03);     // on the boundary
 }
 
 TEST(GeodesicDistances, OnASphereAreArcs) {
