@@ -67,7 +67,7 @@ TEST(Options, AllProblemsAreReported) {
       "--set: error: there is no option \"/turntable/sampels\" [options.unknown-field]\n"
       "  hint: did you mean \"/turntable/samples\"? options are: /basis/easing_tolerance, "
       "/turntable/samples, /turntable/orbit, /turntable/azimuth, /turntable/elevation, "
-      "/turntable/fill\n"
+      "/turntable/field_of_view, /turntable/fill, /turntable/floor_follows, /turntable/background\n"
       "--set#/turntable/samples: error: samples must be a whole number from 1 to 1024 (rays), "
       "not \"many\" [options.wrong-type]\n"
       "  hint: Rays a pixel; more is smoother and slower. For example: 64\n"
