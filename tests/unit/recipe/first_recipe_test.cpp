@@ -16,8 +16,9 @@ TEST(FirstRecipe, NeedsTwoSourcesThatExist) {
 
 TEST(FirstRecipe, MovesTheFirstCommonLandmarkFirst) {
   const test::RecipeFolder folder;
-  folder.write("b.landmarks.json",
-               R"({"version": 1, "landmarks": {"tail": {"position": [0, 0, 2]}, "nose": {"position": [0, 0, 3]}}})");
+  folder.write(
+      "b.landmarks.json",
+      R"({"version": 1, "landmarks": {"tail": {"position": [0, 0, 2]}, "nose": {"position": [0, 0, 3]}}})");
   const Recipe recipe = folder.read(
       first_recipe({folder.path / "a.glb", folder.path / "b.glb"}, folder.path / "recipe.json"));
   EXPECT_EQ(recipe.name, "a-to-b");
@@ -64,7 +65,8 @@ TEST(FirstRecipe, ManySourcesFollowEachOther) {
   const std::vector<fs::path> sources = {folder.path / "a.glb", folder.write("x/a.glb", ""),
                                          folder.write("x/a:b.glb", ""), folder.path / "b.glb"};
   for (const char* name : {"x/a", "x/a:b", "b"}) {
-    folder.write(std::string(name) + ".landmarks.json", R"({"version": 1, "landmarks": {"nose": {"position": [0, 0, 0]}}})");
+    folder.write(std::string(name) + ".landmarks.json",
+                 R"({"version": 1, "landmarks": {"nose": {"position": [0, 0, 0]}}})");
   }
   fs::create_directories(folder.path / "recipes");
   const fs::path file = folder.path / "recipes/first.json";

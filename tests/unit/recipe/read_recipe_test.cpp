@@ -122,7 +122,8 @@ TEST(ReadRecipe, StillsNameATimeAStateOrASource) {
 TEST(ReadRecipe, SourcesMayBeAnywhereAndHaveAnyName) {
   const test::RecipeFolder folder;
   folder.write("über uns/長頸鹿 (1).glb", "");
-  folder.write("über uns/長頸鹿 (1).landmarks.json", R"({"version": 1, "landmarks": {"鼻": {"position": [1, 2, 3]}}})");
+  folder.write("über uns/長頸鹿 (1).landmarks.json",
+               R"({"version": 1, "landmarks": {"鼻": {"position": [1, 2, 3]}}})");
   folder.write("recipes/recipe.json", "");
   const fs::path file = folder.write(
       "recipes/rezept größe.json",
