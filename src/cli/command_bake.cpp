@@ -28,6 +28,14 @@ std::string shown_bytes(std::size_t bytes) {
                           : fmt::format("{:.1f} MB", thousands / 1000);
 }
 
+/// The first names; `inspect` lists them all.
+std::string shown_names(const std::vector<std::string>& names) {
+  constexpr std::size_t kShown = 12;
+  const std::size_t count = std::min(names.size(), kShown);
+  const std::vector<std::string> first(names.begin(), names.begin() + static_cast<std::ptrdiff_t>(count));
+  return fmt::format("{}{}", fmt::join(first, ", "), count < names.size() ? ", ..." : "");
+}
+
 std::vector<std::string> summary_lines(const BakeReport& report) {
   std::vector<std::string> lines;
   double seconds = 0;
@@ -42,8 +50,7 @@ std::vector<std::string> summary_lines(const BakeReport& report) {
     lines.push_back(
         fmt::format("  {}: {}", output.file.filename().string(), shown_bytes(output.bytes)));
     if (output.targets.empty()) continue;
-    lines.push_back(
-        fmt::format("    {} targets: {}", output.targets.size(), fmt::join(output.targets, ", ")));
+    lines.push_back(fmt::format("    {} targets: {}", output.targets.size(), shown_names(output.targets)));
     lines.push_back(fmt::format("    {} keys; error {:.1e} of the diagonal, normals {:.2f} degrees",
                                 output.weight_keys, output.max_error, output.max_normal_error));
   }
