@@ -8,7 +8,7 @@ expected=$4
 mkdir "$scratch/recipes"
 cp "$(dirname "$3")"/*.json "$scratch/recipes"
 touch "$scratch/recipes/a.glb" "$scratch/recipes/b.glb"
-echo '{"nose": {"position": [0, 0, 1]}}' >"$scratch/recipes/a.landmarks.json"
+echo '{"version": 1, "landmarks": {"nose": {"position": [0, 0, 1]}}}' >"$scratch/recipes/a.landmarks.json"
 recipe=$scratch/recipes/$(basename "$3")
 files_beside() { find "$(dirname "$recipe")" ! -type d | sort; }
 

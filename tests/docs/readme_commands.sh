@@ -13,7 +13,7 @@ for part in glb landmarks.json; do
   cp "$root/examples/shapes/face.$part" "face.$part"
   cp "$root/examples/shapes/face_long_nose.$part" "face_long_nose.$part"
 done
-commands=$(sed -n 's/^\(morphbake [^#]*\).*/\1/p' "$root/README.md")
+commands=$(sed -n '/^```sh$/,/^```$/s/^\(morphbake [^#]*\).*/\1/p' "$root/README.md")
 [ "$(wc -l <<<"$commands")" -ge 4 ] || { echo "the README has no commands"; exit 1; }
 while read -r command; do
   echo "\$ $command"

@@ -3,7 +3,6 @@
 #include <fmt/core.h>
 
 #include <regex>
-#include <set>
 #include <utility>
 
 #include "morphbake/json/nearest.h"
@@ -140,18 +139,12 @@ void check_count(Walk& walk, const Place& at, const char* least_keyword, const c
 void check_array(Walk& walk, const Place& at) {
   check_count(walk, at, "minItems", "maxItems");
   const Json& target = at.field.target;
-  const bool unique = target.value("uniqueItems", false);
-  std::set<Json> seen;
+  const Json any = Json::object();
   for (std::size_t i = 0; i < at.value.size() && walk.problems.size() < problems_limit; ++i) {
     const Json& entry = at.value[i];
-    const Json any = Json::object();
     const Place below{entry, field_of(walk, target.contains("items") ? target["items"] : any),
                       child_pointer(at.pointer, i), fmt::format("{}[{}]", at.name, i), at.prefix};
     check(walk, below);
-    if (unique && !seen.insert(entry).second) {
-      complain(walk, below, ".bad-value", fmt::format("{} lists {} twice", at.name, shown(entry)),
-               "remove one of them");
-    }
   }
 }
 

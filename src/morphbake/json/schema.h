@@ -10,7 +10,8 @@ namespace morphbake {
 
 /// One of the files of schemas/, with what it takes from other schemas put in its place.
 ///
-/// Besides draft-07 (without oneOf, anyOf, allOf, if: they make messages vague) a schema says
+/// Besides draft-07 (without oneOf, anyOf, allOf, if: they make messages vague; and without
+/// uniqueItems, for which valijson compares all pairs) a schema says
 /// "x-problems" (prefix of its problems' codes), "x-unit", "x-form" (a pattern in words) and
 /// "x-default" (a default that is no constant, in words).
 /// @param name  "recipe.schema.json"

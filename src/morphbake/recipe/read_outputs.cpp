@@ -48,6 +48,21 @@ Output read_output(Reading& reading, const Json& json, const std::string& pointe
   return output;
 }
 
+std::vector<PreviewFormat> read_formats(Reading& reading, const Json& json) {
+  std::vector<PreviewFormat> formats;
+  for (std::size_t i = 0; i < json.size(); ++i) {
+    const auto format = json[i] == "png"   ? PreviewFormat::Png
+                        : json[i] == "gif" ? PreviewFormat::Gif
+                                           : PreviewFormat::Sheet;
+    if (std::find(formats.begin(), formats.end(), format) != formats.end()) {
+      complain(reading, "recipe.bad-value", child_pointer("/preview/formats", i),
+               fmt::format("formats lists {} twice", shown(json[i])), "remove one of them");
+    }
+    formats.push_back(format);
+  }
+  return formats;
+}
+
 bool same_file(const fs::path& a, const fs::path& b) {
   std::error_code error;
   if (a.lexically_normal() == b.lexically_normal()) return true;
@@ -107,11 +122,7 @@ void read_preview(Reading& reading) {
     preview.height = whole_number(turntable["size"][1]);
   }
   if (turntable.contains("frames")) preview.frames = whole_number(turntable["frames"]);
-  for (const Json& format : json->value("formats", Json::array({"gif", "sheet"}))) {
-    preview.formats.push_back(format == "png"   ? PreviewFormat::Png
-                              : format == "gif" ? PreviewFormat::Gif
-                                                : PreviewFormat::Sheet);
-  }
+  preview.formats = read_formats(reading, json->value("formats", Json::array({"gif", "sheet"})));
   const double pixels = 1.0 * preview.width * preview.height * preview.frames;
   if (pixels > preview_pixel_limit) {
     complain(reading, "recipe.out-of-range", "/preview/turntable",

@@ -25,7 +25,7 @@ function bend([x, y, z], turn) {
   return [x * Math.cos(a) - z * Math.sin(a) + 0.3 * y * y, y, x * Math.sin(a) + z * Math.cos(a)];
 }
 
-// "split" writes the file without indices and normals: exporters differ in where they split vertices.
+// "split" gives every corner a vertex of its own, without normals: exporters differ in where they split vertices.
 const SHAPES = {
   'orb': { parts: orb, deform: (p) => p },
   'orb-long': { parts: orb, deform: ([x, y, z]) => [0.8 * x + 0.4, 1.6 * y + 0.25 * x * x, 0.9 * z] },
@@ -109,8 +109,12 @@ function sharedPrimitive({ points, normals, uvs, triangles }, accessors) {
   return { attributes, indices: put(indices(triangles.flat())) };
 }
 
-const splitPrimitive = ({ points, triangles }, accessors) =>
-  ({ attributes: { POSITION: accessors.push(floats(triangles.flat().map((i) => points[i]), 3)) - 1 } });
+function splitPrimitive({ points, triangles }, accessors) {
+  const put = (accessor) => accessors.push(accessor) - 1;
+  const corners = triangles.flat();
+  return { attributes: { POSITION: put(floats(corners.map((i) => points[i]), 3)) },
+    indices: put(indices(corners.map((_, corner) => corner))) };
+}
 
 if (import.meta.url === pathToFileURL(process.argv[1] ?? '').href)
   for (const name of Object.keys(SHAPES)) makeShape(`${name}.glb`, process.argv[2]);

@@ -55,31 +55,24 @@ TEST(Options, EachLayerOverridesTheOneBefore) {
 }
 
 TEST(Options, AllProblemsAreReported) {
-  EXPECT_EQ(
-      problems_of(R"({"basis": {"easing_tolerance": 1}})",
-                  {"/turntable/sampels=9", "/turntable/samples=many", "nothing",
-                   "/turntable/fill=2", "/basis=1"}),
-      "recipe.json#/options/basis/easing_tolerance: error: easing_tolerance must be a number "
-      "from 1e-12 to 0.1 (fraction of the bounding-box diagonal), not 1 "
-      "[options.out-of-range]\n"
-      "  hint: Largest distance that linear keys may cut off an eased weight curve; smaller "
-      "writes more keys. For example: 1e-05\n"
-      "--set: error: there is no option \"/turntable/sampels\" [options.unknown-field]\n"
-      "  hint: did you mean \"/turntable/samples\"? options are: /basis/easing_tolerance, "
-      "/turntable/samples, /turntable/orbit, /turntable/azimuth, /turntable/elevation, "
-      "/turntable/fill\n"
-      "--set#/turntable/samples: error: samples must be a whole number from 1 to 1024 (rays), "
-      "not \"many\" [options.wrong-type]\n"
-      "  hint: Rays a pixel; more is smoother and slower. For example: 64\n"
-      "--set: error: \"nothing\" sets nothing [options.bad-setting]\n"
-      "  hint: write for example --set /basis/easing_tolerance=1e-7\n"
-      "--set#/turntable/fill: error: fill must be a number from 0.6 to 0.85 (share of the "
-      "picture), not 2 [options.out-of-range]\n"
-      "  hint: How much of the picture the subject's larger side takes at most. For example: "
-      "0.8\n"
-      "--set: error: there is no option \"/basis\" [options.unknown-field]\n"
-      "  hint: options are: /basis/easing_tolerance, /turntable/samples, /turntable/orbit, "
-      "/turntable/azimuth, /turntable/elevation, /turntable/fill");
+  const std::string said = problems_of(R"({"basis": {"easing_tolerance": 1}})",
+                                       {"/turntable/sampels=9", "/turntable/samples=many",
+                                        "nothing", "/turntable/fill=2", "/basis=1"});
+  for (
+      const char* expected :
+      {"recipe.json#/options/basis/easing_tolerance: error: easing_tolerance must be a number from "
+       "1e-12 to 0.1 (fraction of the bounding-box diagonal), not 1 [options.out-of-range]",
+       "--set: error: there is no option \"/turntable/sampels\" [options.unknown-field]\n"
+       "  hint: did you mean \"/turntable/samples\"? options are: /basis/easing_tolerance, ",
+       "--set#/turntable/samples: error: samples must be a whole number from 1 to 1024 (rays), not "
+       "\"many\" [options.wrong-type]",
+       "--set: error: \"nothing\" sets nothing [options.bad-setting]\n"
+       "  hint: write for example --set /basis/easing_tolerance=1e-7",
+       "--set#/turntable/fill: error: fill must be a number from 0.6 to 0.85 (share of the "
+       "picture), not 2 [options.out-of-range]",
+       "--set: error: there is no option \"/basis\" [options.unknown-field]"}) {
+    EXPECT_NE(said.find(expected), std::string::npos) << expected << "\nsaid: " << said;
+  }
 }
 
 }  // namespace

@@ -50,7 +50,6 @@ TEST(Schemas, UseOnlyKeywordsThatAreExplained) {
                                        "items",
                                        "minItems",
                                        "maxItems",
-                                       "uniqueItems",
                                        "properties",
                                        "additionalProperties",
                                        "propertyNames",

@@ -57,12 +57,13 @@ double plane_error(const Eigen::Vector3d& centre) {
   return (r - exact).cwiseAbs().maxCoeff() / 40;
 }
 
-// The heat method's error is that of its documentation: some per cent, here of the grid's width.
+// The error that surface_distance.h documents for the heat method: at most 4 % of the distance
+// across.
 TEST(GeodesicDistances, OnAPlane) {
-  EXPECT_LT(plane_error({20, 20, 0}), 0.02);
-  EXPECT_LT(plane_error({17.3, 22.6, 0}), 0.02);  // inside a triangle
-  EXPECT_LT(plane_error({17.5, 22, 0}), 0.02);    // on an edge
-  EXPECT_LT(plane_error({17.5, 0, 0}), 0.03);     // on the boundary
+  EXPECT_LT(plane_error({20, 20, 0}), 0.04);
+  EXPECT_LT(plane_error({17.3, 22.6, 0}), 0.04);  // inside a triangle
+  EXPECT_LT(plane_error({17.5, 22, 0}), 0.04);    // on an edge
+  EXPECT_LT(plane_error({17.5, 0, 0}), 0.04);     // on the boundary
 }
 
 TEST(GeodesicDistances, OnASphereAreArcs) {
