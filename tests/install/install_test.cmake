@@ -10,7 +10,7 @@ endfunction()
 set(prefix ${SCRATCH}/prefix)
 file(REMOVE_RECURSE ${prefix} ${SCRATCH}/consumer)
 if(KIND STREQUAL "shared")
-  set(BUILT ${SCRATCH}/build)
+  set(BUILT ${BUILT_SHARED})
   run(${CMAKE_COMMAND} -S ${ROOT} -B ${BUILT} -G Ninja -DBUILD_SHARED_LIBS=ON -DMORPHBAKE_TESTS=OFF
       -DCMAKE_BUILD_TYPE=RelWithDebInfo -DMORPHBAKE_WARNINGS_AS_ERRORS=ON
       -DCMAKE_CXX_FLAGS_RELWITHDEBINFO=${FLAGS})
