@@ -1,6 +1,7 @@
 #include <fmt/core.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <memory>
 
@@ -32,7 +33,8 @@ std::string shown_bytes(std::size_t bytes) {
 std::string shown_names(const std::vector<std::string>& names) {
   constexpr std::size_t kShown = 12;
   const std::size_t count = std::min(names.size(), kShown);
-  const std::vector<std::string> first(names.begin(), names.begin() + static_cast<std::ptrdiff_t>(count));
+  const std::vector<std::string> first(names.begin(),
+                                       names.begin() + static_cast<std::ptrdiff_t>(count));
   return fmt::format("{}{}", fmt::join(first, ", "), count < names.size() ? ", ..." : "");
 }
 
@@ -50,7 +52,8 @@ std::vector<std::string> summary_lines(const BakeReport& report) {
     lines.push_back(
         fmt::format("  {}: {}", output.file.filename().string(), shown_bytes(output.bytes)));
     if (output.targets.empty()) continue;
-    lines.push_back(fmt::format("    {} targets: {}", output.targets.size(), shown_names(output.targets)));
+    lines.push_back(
+        fmt::format("    {} targets: {}", output.targets.size(), shown_names(output.targets)));
     lines.push_back(fmt::format("    {} keys; error {:.1e} of the diagonal, normals {:.2f} degrees",
                                 output.weight_keys, output.max_error, output.max_normal_error));
   }

@@ -1,4 +1,5 @@
 // A headless Chromium and the small server of its page.
+import { fileURLToPath } from 'node:url';
 import { existsSync, readFileSync } from 'node:fs';
 import { createServer } from 'node:http';
 import path from 'node:path';
@@ -56,7 +57,7 @@ async function answer(exchange, request, response) {
 }
 
 function locate(area, rest) {
-  if (area === 'page') return path.join(import.meta.dirname, 'page', ...rest);
+  if (area === 'page') return path.join(path.dirname(fileURLToPath(import.meta.url)), 'page', ...rest);
   if (area === 'modules') return path.join(modulesFolder(), ...rest);
   throw new Error('no such area');
 }

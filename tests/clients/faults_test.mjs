@@ -1,10 +1,11 @@
 // The tests find what they are for: each fault of the stand-in fails the test that should see it.
 // Usage: node faults_test.mjs
+import { fileURLToPath } from 'node:url';
 import { spawnSync } from 'node:child_process';
 import path from 'node:path';
 import { startChecks, withFolder } from './support.mjs';
 
-const here = import.meta.dirname;
+const here = path.dirname(fileURLToPath(import.meta.url));
 const STAND_IN = path.join(here, 'stand_in.mjs');
 const RECIPE = path.join(here, 'faults', 'pebble.json');
 const checks = startChecks();

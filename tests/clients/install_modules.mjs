@@ -1,10 +1,11 @@
 // Installs the npm packages of the client tests.
 // Usage: node install_modules.mjs FOLDER    makes FOLDER/node_modules
+import { fileURLToPath } from 'node:url';
 import { spawnSync } from 'node:child_process';
 import { copyFileSync, existsSync, mkdirSync, readFileSync, writeFileSync } from 'node:fs';
 import path from 'node:path';
 
-const here = import.meta.dirname;
+const here = path.dirname(fileURLToPath(import.meta.url));
 const folder = process.argv[2];
 const marker = path.join(folder, 'node_modules', '.installed-lock');
 const lock = readFileSync(path.join(here, 'package-lock.json'), 'utf8');

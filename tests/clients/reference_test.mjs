@@ -1,5 +1,6 @@
 // The reference against closed forms.
 // Usage: node reference_test.mjs
+import { fileURLToPath } from 'node:url';
 import { writeFileSync } from 'node:fs';
 import path from 'node:path';
 import { cornersOf, expectOutput, frameTimes, openRecipe, solveShape } from './reference_frames.mjs';
@@ -8,7 +9,7 @@ import { angle, at, diagonal, distance } from './reference/vectors.mjs';
 import { placeRecipe, startChecks, withFolder } from './support.mjs';
 
 const checks = startChecks();
-const RECIPES = path.join(import.meta.dirname, 'recipes');
+const RECIPES = path.join(path.dirname(fileURLToPath(import.meta.url)), 'recipes');
 
 /** Largest distance of two shapes as a fraction of the diagonal. */
 function offBy(shape, expected) {
