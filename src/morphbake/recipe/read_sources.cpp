@@ -36,7 +36,8 @@ bool check_exists(Reading& reading, const fs::path& file, const Json& as_written
     return false;
   }
   const fs::path folder = file.parent_path();
-  std::string hint = fmt::format("the folder {} does not exist", shown(Json(folder.string())));
+  const std::string written_folder = fs::path(as_written.get<std::string>()).parent_path().string();
+  std::string hint = fmt::format("the folder {} does not exist", shown(Json(written_folder)));
   if (fs::is_directory(folder, error)) {
     const std::string nearest = nearest_name(file.filename().string(), files_in(folder));
     hint = nearest.empty() ? "file names start at the recipe's folder"
