@@ -24,7 +24,7 @@ Eigen::VectorXd edge_distances(const Mesh& mesh, const SurfacePoint& centre);
 /// The centre becomes a vertex of its own (its triangle or edge is split), never the nearest
 /// vertex. Error 1-4 % of the distance; it grows where triangles are large against it.
 /// @return  one a centre: #V, scene units, 0 or more; infinity on other components
-/// @cost    a factorisation a centre: about 14 s at 500k vertices
+/// @cost    a factorisation a centre
 /// @see     Crane, Weischedel and Wardetzky 2013; CGAL Heat_method_3
 /// @throws  BakeError "transition.distance-failed"
 std::vector<Eigen::VectorXd> geodesic_distances(const Mesh& mesh,
