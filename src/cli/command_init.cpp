@@ -16,6 +16,18 @@ struct Arguments {
   bool force = false;
 };
 
+/// The recipe schema that came with this program, installed or as built in the source tree; empty
+/// when there is none.
+std::filesystem::path schema_beside_program() {
+  std::error_code error;
+  const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", error);
+  for (const char* folder : {"../share/morphbake/schemas", "../../schemas"}) {
+    const std::filesystem::path file = program.parent_path() / folder / "recipe.schema.json";
+    if (std::filesystem::is_regular_file(file, error)) return file;
+  }
+  return {};
+}
+
 void run_init(const Arguments& arguments, Terminal& terminal) {
   if (!arguments.force && std::filesystem::exists(arguments.recipe)) {
     Problem problem;
@@ -26,7 +38,8 @@ void run_init(const Arguments& arguments, Terminal& terminal) {
     throw BakeError(problem);
   }
   PendingOutputs outputs;
-  outputs.stage(arguments.recipe, first_recipe(arguments.sources, arguments.recipe));
+  outputs.stage(arguments.recipe,
+                first_recipe(arguments.sources, arguments.recipe, schema_beside_program()));
   outputs.commit();
   terminal.result(arguments.recipe.string());
   terminal.note(fmt::format("next: morphbake bake {}", arguments.recipe.string()));

@@ -21,6 +21,9 @@ run 0 bake "$3" --preview none -o json --log json
 stderr_is_json_lines
 jq -es 'any(.[]; .report.outputs | length == 1)' "$scratch/stderr" >/dev/null || wrong "no report in the JSON lines"
 
+grep -aq '"extras":{"extras":"of another kind than an object","targetNames":\[' out/tetrahedra.glb ||
+  wrong "the mesh's extras are lost"
+
 run 0 inspect out/tetrahedra.glb
 stdout_has "4 vertices"
 run 0 inspect out/tetrahedra.glb --json
@@ -34,6 +37,7 @@ stdout_has "turn/stem.sheet.png"
 
 run 0 init "$folder/flat.gltf" "$folder/tall.gltf" -o first.json
 stdout_has "first.json"
+[ -f "$(jq -r '."$schema"' first.json)" ] || wrong "init names no schema: $(jq -c '."$schema"' first.json)"
 run 0 bake first.json --preview none -o first
 run 2 init "$folder/flat.gltf" "$folder/tall.gltf" -o first.json
 run 0 init "$folder/flat.gltf" "$folder/tall.gltf" -o first.json --force

@@ -162,13 +162,4 @@ MorphBasis frame_basis(const SolvedShapes& shapes, const SeparableTimeline& sepa
   return basis;
 }
 
-Positions combine_targets(const MorphBasis& basis, const Eigen::VectorXd& w) {
-  Positions positions = basis.base;
-  for (std::size_t k = 0; k < basis.targets.size(); ++k) {
-    const double weight = w(static_cast<Eigen::Index>(k));
-    if (weight != 0) positions += weight * basis.targets[k].displacement;
-  }
-  return positions;
-}
-
 }  // namespace morphbake

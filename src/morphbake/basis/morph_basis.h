@@ -33,7 +33,4 @@ MorphBasis track_basis(const SolvedShapes& shapes, const SeparableTimeline& sepa
 MorphBasis frame_basis(const SolvedShapes& shapes, const SeparableTimeline& separable,
                        const Timeline& timeline);
 
-/// Positions at weights `w` (one a target).
-Positions combine_targets(const MorphBasis& basis, const Eigen::VectorXd& w);
-
 }  // namespace morphbake

@@ -16,12 +16,26 @@ std::string joined(const std::vector<Problem>& problems) {
   return text;
 }
 
+/// File names and fields may hold anything; a terminal must not act on it.
+std::string without_control_characters(const std::string& text) {
+  std::string shown;
+  for (const char letter : text) {
+    const auto byte = static_cast<unsigned char>(letter);
+    if (byte < 0x20 || byte == 0x7F) {
+      shown += fmt::format("\\u{:04x}", byte);
+    } else {
+      shown += letter;
+    }
+  }
+  return shown;
+}
+
 }  // namespace
 
 std::string format_problem(const Problem& problem) {
   const Location& at = problem.location;
-  std::string text = at.file;
-  if (!at.pointer.empty()) text += "#" + at.pointer;
+  std::string text = without_control_characters(at.file);
+  if (!at.pointer.empty()) text += "#" + without_control_characters(at.pointer);
   if (at.line > 0) text += fmt::format(":{}:{}", at.line, at.column);
   if (!text.empty()) text += ": ";
   text += problem.severity == Severity::Error ? "error: " : "warning: ";

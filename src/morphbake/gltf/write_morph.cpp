@@ -168,6 +168,14 @@ void write_animation(const MeshMorph& morph, Draft& draft) {
                                       {"channels", Json::array({channel})}});
 }
 
+/// Importers look for names in extras.targetNames. Extras of another kind than an object, which are
+/// legal, are kept inside the new object.
+void name_targets(Json& mesh, const std::vector<std::string>& names) {
+  Json& extras = mesh["extras"];
+  if (!extras.is_null() && !extras.is_object()) extras = Json{{"extras", std::move(extras)}};
+  extras["targetNames"] = names;
+}
+
 void append_u32(std::string& bytes, std::size_t value) {
   const auto number = static_cast<std::uint32_t>(value);
   bytes.append(reinterpret_cast<const char*>(&number), sizeof number);
@@ -211,7 +219,7 @@ std::string write_morph_glb(const GltfFile& source, const MeshMorph& morph,
     write_primitive(document, morph.primitives[p], mesh["primitives"][p], draft);
   }
   if (!morph.target_names.empty()) {
-    mesh["extras"]["targetNames"] = morph.target_names;
+    name_targets(mesh, morph.target_names);
     Json weights = Json::array();
     for (Eigen::Index t = 0; t < morph.key_weights.cols(); ++t) {
       weights.push_back(static_cast<double>(morph.key_weights(0, t)));

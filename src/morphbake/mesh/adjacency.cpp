@@ -4,7 +4,6 @@
 #include <array>
 #include <cstdint>
 #include <numeric>
-#include <unordered_map>
 
 namespace morphbake {
 namespace {
@@ -174,26 +173,6 @@ ManifoldDefects find_manifold_defects(const Connectivity& connectivity, int limi
     defects.pinched_vertices = find_pinched_vertices(connectivity, sides, limit);
   }
   return defects;
-}
-
-int count_boundary_loops(const Connectivity& connectivity) {
-  std::unordered_map<int, int> next;  // along the boundary, from vertex to vertex
-  for_each_edge(sorted_sides(connectivity.triangles), [&](auto first, auto last) {
-    if (last - first != 1) return;
-    const bool forward = first->forward;
-    next[forward ? first->low : first->high] = forward ? first->high : first->low;
-  });
-  int loops = 0;
-  while (!next.empty()) {
-    ++loops;
-    auto step = next.begin();
-    while (step != next.end()) {
-      const int to = step->second;
-      next.erase(step);
-      step = next.find(to);
-    }
-  }
-  return loops;
 }
 
 }  // namespace morphbake

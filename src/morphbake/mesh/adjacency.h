@@ -43,7 +43,4 @@ struct ManifoldDefects {
 /// @param limit  places kept of each kind
 ManifoldDefects find_manifold_defects(const Connectivity& connectivity, int limit);
 
-/// Number of closed boundary loops of a manifold connectivity.
-int count_boundary_loops(const Connectivity& connectivity);
-
 }  // namespace morphbake

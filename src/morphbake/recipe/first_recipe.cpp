@@ -126,11 +126,13 @@ void check_sources(const std::vector<fs::path>& sources) {
 
 }  // namespace
 
-std::string first_recipe(const std::vector<fs::path>& sources, const fs::path& recipe_file) {
+std::string first_recipe(const std::vector<fs::path>& sources, const fs::path& recipe_file,
+                         const fs::path& schema) {
   check_sources(sources);
   const std::vector<std::string> names = unique_names(sources);
   const std::string landmark = common_landmark(sources);
   Json recipe;
+  if (!schema.empty()) recipe["$schema"] = relative_name(schema, recipe_file);
   recipe["version"] = 1;
   recipe["name"] = names.front() + "-to-" + names.back();
   for (std::size_t i = 0; i < sources.size(); ++i) {

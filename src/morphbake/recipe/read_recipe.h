@@ -22,7 +22,9 @@ Recipe redirect_outputs(Recipe recipe, const std::filesystem::path& folder);
 /// A first recipe over `sources` that bakes, as JSON text.
 ///
 /// @param sources  two or more glTF files; their landmark files are found beside them
+/// @param schema   recipe.schema.json for "$schema", by which editors complete; empty for none
 std::string first_recipe(const std::vector<std::filesystem::path>& sources,
-                         const std::filesystem::path& recipe_file);
+                         const std::filesystem::path& recipe_file,
+                         const std::filesystem::path& schema);
 
 }  // namespace morphbake

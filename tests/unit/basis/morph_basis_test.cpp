@@ -84,6 +84,16 @@ TEST(TrackBasis, NamesAreUniqueAndShortEnough) {
   EXPECT_EQ(basis.targets[2].name, "ok");
 }
 
+/// What a viewer shows at weights `w`.
+Positions combine_targets(const MorphBasis& basis, const Eigen::VectorXd& w) {
+  Positions positions = basis.base;
+  for (std::size_t k = 0; k < basis.targets.size(); ++k) {
+    const double weight = w(static_cast<Eigen::Index>(k));
+    if (weight != 0) positions += weight * basis.targets[k].displacement;
+  }
+  return positions;
+}
+
 TEST(FrameBasis, HoldsEveryFrame) {
   const OneTrack track(Ease::Smoothstep);
   const MorphBasis basis = frame_basis(track.shapes, track.separable, track.timeline);

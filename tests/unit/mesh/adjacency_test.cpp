@@ -57,12 +57,5 @@ TEST(Components, CountsAndLabelsByFirstVertex) {
   EXPECT_EQ(components.label.back(), 1);
 }
 
-TEST(BoundaryLoops, AreCounted) {
-  EXPECT_EQ(count_boundary_loops(connectivity_of(test::sphere(6, 8))), 0);
-  EXPECT_EQ(count_boundary_loops(connectivity_of(test::grid(4, 4))), 1);
-  EXPECT_EQ(count_boundary_loops(connectivity_of(test::joined(test::grid(4, 4), test::grid(3, 3)))),
-            2);
-}
-
 }  // namespace
 }  // namespace morphbake

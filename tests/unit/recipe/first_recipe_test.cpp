@@ -9,9 +9,10 @@ namespace fs = std::filesystem;
 
 TEST(FirstRecipe, NeedsTwoSourcesThatExist) {
   const test::RecipeFolder folder;
-  EXPECT_THROW(first_recipe({folder.path / "a.glb"}, folder.path / "r.json"), BakeError);
-  EXPECT_THROW(first_recipe({folder.path / "a.glb", folder.path / "c.glb"}, folder.path / "r.json"),
-               BakeError);
+  EXPECT_THROW(first_recipe({folder.path / "a.glb"}, folder.path / "r.json", ""), BakeError);
+  EXPECT_THROW(
+      first_recipe({folder.path / "a.glb", folder.path / "c.glb"}, folder.path / "r.json", ""),
+      BakeError);
 }
 
 TEST(FirstRecipe, MovesTheFirstCommonLandmarkFirst) {
@@ -19,8 +20,8 @@ TEST(FirstRecipe, MovesTheFirstCommonLandmarkFirst) {
   folder.write(
       "b.landmarks.json",
       R"({"version": 1, "landmarks": {"tail": {"position": [0, 0, 2]}, "nose": {"position": [0, 0, 3]}}})");
-  const Recipe recipe = folder.read(
-      first_recipe({folder.path / "a.glb", folder.path / "b.glb"}, folder.path / "recipe.json"));
+  const Recipe recipe = folder.read(first_recipe({folder.path / "a.glb", folder.path / "b.glb"},
+                                                 folder.path / "recipe.json", ""));
   EXPECT_EQ(recipe.name, "a-to-b");
   ASSERT_EQ(recipe.timeline.tracks.size(), 2U);
   EXPECT_EQ(recipe.timeline.tracks[0].name, "nose");
@@ -34,8 +35,8 @@ TEST(FirstRecipe, MovesTheFirstCommonLandmarkFirst) {
 
 TEST(FirstRecipe, WithoutACommonLandmarkMovesEverything) {
   const test::RecipeFolder folder;
-  const Recipe recipe = folder.read(
-      first_recipe({folder.path / "a.glb", folder.path / "b.glb"}, folder.path / "recipe.json"));
+  const Recipe recipe = folder.read(first_recipe({folder.path / "a.glb", folder.path / "b.glb"},
+                                                 folder.path / "recipe.json", ""));
   ASSERT_EQ(recipe.timeline.tracks.size(), 1U);
   EXPECT_EQ(recipe.timeline.tracks[0].edit.region, -1);
 }
@@ -54,7 +55,7 @@ TEST(FirstRecipe, TakesAwkwardNamesAndManySources) {
   }
   fs::create_directories(folder.path / "recipes");
   const fs::path file = folder.path / "recipes/first.json";
-  folder.write("recipes/first.json", first_recipe(sources, file));
+  folder.write("recipes/first.json", first_recipe(sources, file, ""));
   // A file name with a control character is a name that a recipe may not have.
   const std::string said = folder.problems(file);
   EXPECT_NE(said.find("must be a file name"), std::string::npos) << said;
@@ -70,7 +71,7 @@ TEST(FirstRecipe, ManySourcesFollowEachOther) {
   }
   fs::create_directories(folder.path / "recipes");
   const fs::path file = folder.path / "recipes/first.json";
-  folder.write("recipes/first.json", first_recipe(sources, file));
+  folder.write("recipes/first.json", first_recipe(sources, file, ""));
   const Recipe recipe = read_recipe(file);
   ASSERT_EQ(recipe.sources.size(), 4U);
   EXPECT_EQ(recipe.sources[1].name, "a-2");
