@@ -16,7 +16,8 @@ double patches(const Vector& p) {
   double nearest = 10;
   double second = 10;
   for (int i = 0; i < 27; ++i) {
-    const Vector corner = grid + Vector(i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1);
+    const Eigen::Vector3i cell_offset(i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1);
+    const Vector corner = grid + cell_offset.cast<double>();
     const auto jitter = [&corner](double a, double b, double c) {
       const double x = std::sin(corner.dot(Vector(a, b, c))) * 43758.5453;
       return 0.5 + 0.7 * (x - std::floor(x) - 0.5);

@@ -83,7 +83,7 @@ std::vector<Point> cut_contour(const Solid& solid) {
 /// CGAL's sizing field: bounds the radius of each facet's Delaunay ball.
 struct FacetSize {
   using FT = Kernel::FT;
-  using Point_3 = Point;
+  using Point_3 = Point;  // NOLINT(readability-identifier-naming): CGAL asks for this name
   using Index = Domain::Index;
 
   const Solid* solid;

@@ -38,13 +38,25 @@ std::string shown_names(const std::vector<std::string>& names) {
   return fmt::format("{}{}", fmt::join(first, ", "), count < names.size() ? ", ..." : "");
 }
 
+/// How the systems were solved, on one line.
+std::string solve_line(const SolveReport& solve) {
+  int iterations = 0;
+  double error = 0;
+  for (const SolveRecord& record : solve.solves) {
+    iterations += record.convergence.iterations;
+    error = std::max(error, record.convergence.error);
+  }
+  return fmt::format("  {}: {} solves, {} iterations, error {:.1e}; {} vertices held", solve.solver,
+                     solve.solves.size(), iterations, error, solve.held);
+}
+
 std::vector<std::string> summary_lines(const BakeReport& report) {
   std::vector<std::string> lines;
   double seconds = 0;
   for (const StageReport& stage : report.stages) seconds += stage.seconds;
-  lines.push_back(fmt::format(
-      "{}: {} vertices, {} triangles, {} solved shapes, {} frames in {:.2f} s", report.recipe,
-      report.vertices, report.triangles, report.solved_shapes, report.frames, seconds));
+  lines.push_back(fmt::format("{}: {} vertices, {} triangles, {} frames in {:.2f} s", report.recipe,
+                              report.vertices, report.triangles, report.frames, seconds));
+  lines.push_back(solve_line(report.solve));
   for (const StageReport& stage : report.stages) {
     lines.push_back(fmt::format("  {:<14}{:8.2f} s", stage.name, stage.seconds));
   }
@@ -54,14 +66,28 @@ std::vector<std::string> summary_lines(const BakeReport& report) {
     if (output.targets.empty()) continue;
     lines.push_back(
         fmt::format("    {} targets: {}", output.targets.size(), shown_names(output.targets)));
-    lines.push_back(fmt::format("    {} keys; error {:.1e} of the diagonal, normals {:.2f} degrees",
-                                output.weight_keys, output.max_error, output.max_normal_error));
+    lines.push_back(fmt::format(
+        "    {} keys; error {:.1e} of the diagonal, normals {:.2f} degrees (99 in 100: {:.2f})",
+        output.weight_keys, output.max_error, output.normals.maximum,
+        output.normals.percentile_99));
   }
   return lines;
 }
 
-/// Fails now rather than after the bake when the report cannot be written.
-void check_writable(const std::filesystem::path& file) {
+/// Fails now rather than after the bake when the report cannot be written, or would replace what
+/// the bake reads or writes.
+void check_report(const Recipe& recipe, const std::filesystem::path& file) {
+  std::vector<std::filesystem::path> taken = {recipe.file};
+  for (const SourceRef& source : recipe.sources) taken.push_back(source.file);
+  for (const Output& output : recipe.outputs) taken.push_back(output.file);
+  for (const std::filesystem::path& other : taken) {
+    std::error_code error;
+    const bool is_same = std::filesystem::absolute(file).lexically_normal() ==
+                         std::filesystem::absolute(other).lexically_normal();
+    if (!is_same && !std::filesystem::equivalent(file, other, error)) continue;
+    throw usage_error("--report: '" + file.string() + "' is a file of the recipe",
+                      "write the report to a file of its own");
+  }
   PendingOutputs never_committed;
   never_committed.stage(file, "");
 }
@@ -74,7 +100,7 @@ void run_bake(const Arguments& arguments, Terminal& terminal) {
     recipe = redirect_outputs(std::move(recipe), arguments.output_dir);
   }
   if (arguments.preview == "none") recipe.preview.reset();
-  if (!arguments.report.empty()) check_writable(arguments.report);
+  if (!arguments.report.empty()) check_report(recipe, arguments.report);
 
   const BakeReport report = bake(recipe, options, terminal.observer());
   for (const OutputReport& output : report.outputs) {

@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "cli/commands.h"
+#include "morphbake/bake/bake.h"
 #include "morphbake/files/files.h"
 #include "morphbake/recipe/read_recipe.h"
 
@@ -37,9 +38,21 @@ void run_init(const Arguments& arguments, Terminal& terminal) {
     problem.hint = "choose another name with --output, or overwrite it with --force";
     throw BakeError(problem);
   }
+  for (const std::filesystem::path& source : arguments.sources) {
+    std::error_code error;
+    if (!std::filesystem::equivalent(source, arguments.recipe, error) || error) continue;
+    Problem problem;
+    problem.code = "usage.would-overwrite";
+    problem.location.file = arguments.recipe.string();
+    problem.message = "this is one of the sources";
+    problem.hint = "choose another name with --output";
+    throw BakeError(problem);
+  }
   PendingOutputs outputs;
-  outputs.stage(arguments.recipe,
-                first_recipe(arguments.sources, arguments.recipe, schema_beside_program()));
+  const std::filesystem::path staged = outputs.stage(
+      arguments.recipe, first_recipe(arguments.sources, arguments.recipe, schema_beside_program()));
+  // What it writes shall bake: the sources must be glTF and share their triangles.
+  validate(read_recipe(staged), {}, terminal.observer());
   outputs.commit();
   terminal.result(arguments.recipe.string());
   terminal.note(fmt::format("next: morphbake bake {}", arguments.recipe.string()));

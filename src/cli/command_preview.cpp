@@ -19,6 +19,7 @@ struct Arguments {
   std::string size = "512x512";
   int frames = PreviewRequest{}.frames;
   std::vector<std::string> formats = {"gif", "sheet"};
+  std::vector<std::string> settings;
 };
 
 /// @return  whether `text` is a whole number of pixels that the renderer takes
@@ -40,6 +41,7 @@ void read_size(const std::string& text, PreviewRequest& request) {
 void run_preview(const Arguments& arguments, Terminal& terminal) {
   PreviewRequest request;
   read_size(arguments.size, request);
+  const BakeOptions options = read_options("{}", "", arguments.settings);
   request.frames = arguments.frames;
   for (const std::string& format : arguments.formats) {
     request.formats.push_back(kFormats.at(format));
@@ -47,7 +49,7 @@ void run_preview(const Arguments& arguments, Terminal& terminal) {
   std::filesystem::path stem = arguments.stem;
   if (stem.empty()) stem = std::filesystem::path(arguments.file).replace_extension();
   for (const std::filesystem::path& file :
-       preview(arguments.file, request, TurntableOptions{}, stem, terminal.observer())) {
+       preview(arguments.file, request, options, stem, terminal.observer())) {
     terminal.result(file.string());
   }
 }
@@ -69,6 +71,12 @@ Command add_preview(CLI::App& program) {
       ->check(CLI::IsMember({"png", "gif", "sheet"}))
       ->delimiter(',')
       ->capture_default_str();
+  parser
+      ->add_option(
+          "--set", arguments->settings,
+          "Override an option by its JSON pointer; may be repeated (names: morphbake config)")
+      ->type_name("/POINTER=VALUE")
+      ->allow_extra_args(false);
   parser->footer(
       "\nExample: morphbake preview morph.glb --size 800x600 --frames 120 --formats gif");
   return {parser, [arguments](Terminal& terminal) { run_preview(*arguments, terminal); }};

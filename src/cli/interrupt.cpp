@@ -1,6 +1,7 @@
 #include "cli/interrupt.h"
 
 #include <signal.h>
+#include <unistd.h>
 
 #include <atomic>
 
@@ -10,9 +11,19 @@ namespace {
 std::atomic<bool> interrupted = false;
 static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler may not lock");
 
+constexpr unsigned kPatience = 20;  // seconds; stages look for interrupts far more often
+
+extern "C" void give_up(int signal_number) {
+  static_cast<void>(signal_number);
+  _exit(130);
+}
+
+/// Asks politely; a library that does not come back is ended all the same.
 extern "C" void note_interrupt(int signal_number) {
   interrupted = true;
   for (const int other : {SIGINT, SIGTERM}) signal(other, SIG_DFL);
+  signal(SIGALRM, give_up);
+  alarm(kPatience);
   static_cast<void>(signal_number);
 }
 

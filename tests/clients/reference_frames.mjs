@@ -6,9 +6,9 @@ import path from 'node:path';
 import { pathToFileURL } from 'node:url';
 import { carryNormals, groupCorners, measureNormals } from './reference/normals.mjs';
 import { measureRegions } from './reference/regions.mjs';
-import { chooseReference, solveFrame } from './reference/solve.mjs';
+import { chooseConstraints, solveFrame } from './reference/solve.mjs';
 import { readCorners, weld } from './reference/surface.mjs';
-import { findUnchanging, readTimeline, transitionAt } from './reference/timeline.mjs';
+import { findUntouched, readTimeline, transitionAt, untouchedIn } from './reference/timeline.mjs';
 import { diagonal } from './reference/vectors.mjs';
 
 /** Reads a recipe and its sources; nothing is solved yet. */
@@ -22,10 +22,10 @@ export function openRecipe(file) {
   const landmarks = names.map((name, s) => readLandmarks(recipe.sources[name].landmarks, folder, files[s]));
   const fields = measureRegions(recipe, mesh, (name) => names.indexOf(name), landmarks);
   const timeline = readTimeline(recipe, names, fields, mesh.neighbours.length);
-  const reference = chooseReference(mesh, findUnchanging(timeline));
+  const constraints = chooseConstraints(mesh, findUntouched(timeline), recipe.hold ?? 'auto', fields);
   const groups = groupCorners(mesh, sources[0]);
   const restNormals = measureNormals(mesh, groups, mesh.geometries[0], sources[0].mirrored);
-  return { recipe, sources, mesh, fields, timeline, reference, groups, restNormals, latest: null };
+  return { recipe, sources, mesh, fields, timeline, constraints, groups, restNormals, latest: null };
 }
 
 /** A file's name, the landmarks themselves, or nothing: then the file beside the source. */
@@ -47,8 +47,13 @@ export function frameTimes({ timeline: { fps, duration } }) {
 
 /** The shape at a time in seconds, or of a state by name: #V by 3 positions of the welded vertices. */
 export function solveShape(opened, at) {
-  const T = typeof at === 'string' ? opened.timeline.stateNamed(at) : transitionAt(opened.timeline, at);
-  opened.latest = solveFrame(opened.mesh, opened.reference, T, opened.latest);
+  const { mesh, timeline, constraints, recipe, fields } = opened;
+  if (typeof at === 'string') {
+    const { T, rest } = timeline.stateNamed(at);  // a still holds and stands by itself
+    const own = chooseConstraints(mesh, untouchedIn(timeline, rest, [T]), recipe.hold ?? 'auto', fields);
+    return solveFrame(mesh, own, T, rest, null);
+  }
+  opened.latest = solveFrame(mesh, constraints, transitionAt(timeline, at), timeline.rest, opened.latest);
   return opened.latest;
 }
 
@@ -81,12 +86,12 @@ export function expectOutput(opened, output) {
 
 function describe(file) {
   const opened = openRecipe(file);
-  const { mesh, timeline, reference, fields } = opened;
+  const { mesh, timeline, constraints, fields } = opened;
   console.log(`${mesh.neighbours.length} vertices, ${mesh.corners.length / 3} triangles, ` +
     `${Math.max(...mesh.component) + 1} components, ${timeline.duration} s, ${frameTimes(opened).length} frames`);
   for (const [name, d] of Object.entries(fields))
     console.log(`region ${name}: ${d.filter((x) => x === 0).length} inside, ${d.filter((x) => x === 1).length} outside`);
-  console.log(`${reference.filter(Boolean).length} vertices fix the translation`);
+  console.log(`${constraints.held.filter(Boolean).length} vertices are held`);
   const end = solveShape(opened, timeline.duration);
   console.log(`diagonal at the end: ${diagonal(end)}`);
 }

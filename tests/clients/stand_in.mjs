@@ -95,7 +95,7 @@ function bakeLikeMorphbake(recipeFile) {
     const bytes = writeOutput(opened, output, node);
     writeFileSync(path.join(folder, output.file), bytes);
     if (values.preview !== 'none') writePictures(path.join(folder, path.basename(output.file, '.glb')));
-    return { file: output.file, targets: targetNames(bytes), max_error: 0, max_normal_error: 0 };
+    return { file: output.file, targets: targetNames(bytes), max_error: 0, normals: { maximum: 0 } };
   });
   writeFileSync(values.report, JSON.stringify({ outputs: reports }));
 }

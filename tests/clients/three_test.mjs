@@ -59,13 +59,13 @@ async function compareOutput(browser, opened, output, report, file) {
 }
 
 function judge(name, { far, turned, times }, scale, report) {
-  const [distanceFound, turnAllowed] = [far.value / scale, (report?.max_normal_error ?? 0) + NORMAL_SLACK];
+  const [distanceFound, turnAllowed] = [far.value / scale, (report?.normals.maximum ?? 0) + NORMAL_SLACK];
   const place = ({ primitive, vertex, moment }) =>
     (primitive === undefined ? '' : ` (primitive ${primitive}, vertex ${vertex}, ${times[moment]} s)`);
   const middle = times.length > 1 ? `${(times.length + 1) / 2} frames and ${(times.length - 1) / 2} middles` : 'still';
   console.log(`${name}: ${middle}, off by ${distanceFound.toExponential(2)} of the diagonal${place(far)}, ` +
     `normals by ${turned.value.toFixed(3)} degrees${place(turned)}; the report says ${report?.max_error?.toExponential(2)}, ` +
-    `${report?.max_normal_error?.toFixed(3)} degrees`);
+    `${report?.normals.maximum.toFixed(3)} degrees`);
   checks.check(distanceFound <= POSITION_TOLERANCE, `${name}: positions are off by ${distanceFound} of the diagonal`);
   checks.check(turned.value <= turnAllowed, `${name}: normals are off by ${turned.value} degrees, allowed ${turnAllowed}`);
 }

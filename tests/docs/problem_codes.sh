@@ -1,11 +1,12 @@
 # Every code in the source has a line in docs/problems.md, and the other way round.
 cd "$(dirname "$0")/../.." || exit 1
-modules='usage|files|json|recipe|landmarks|options|gltf|connectivity|linear|solve|transition|export|output|image|preview'
+modules='usage|files|json|recipe|landmarks|options|gltf|connectivity|linear|solve|transition|basis|export|output|image|preview|memory'
 in_source=$(grep -rhoE "\"($modules)\.[a-z-]+\"" src --include=*.cpp | tr -d '"' | grep -vE '\.(json|md|[a-z-]*-)$' | sort -u)
 # Codes that are put together from a prefix.
 for prefix in recipe landmarks options; do
   in_source+=$(printf '\n%s' $prefix.{unknown-field,missing-field,wrong-type,out-of-range,bad-value})
 done
+in_source+=$(printf '\n%s' gltf.{missing-field,wrong-type,out-of-range,bad-value})
 in_source+=$(printf '\n%s' gltf.json-{syntax,duplicate-key,too-deep,too-long})
 in_docs=$(grep -oE "\`($modules)\.[a-z-]+\`" docs/problems.md | tr -d '`' | grep -vE '\.json$' | sort -u)
 difference=$(diff <(sort -u <<<"$in_source") <(echo "$in_docs")) && { echo "$(wc -l <<<"$in_docs") codes"; exit 0; }

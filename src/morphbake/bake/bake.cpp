@@ -51,45 +51,40 @@ BakeReport bake(const Recipe& recipe, const BakeOptions& options, const Observer
   const MorphableMesh mesh = share_connectivity(sources);
   clock.start("transition");
   const std::vector<Eigen::VectorXd> regions = region_distances(mesh, recipe);
-  const SeparableTimeline separable =
-      separate_timeline(recipe, regions, mesh.connectivity.vertex_count);
   clock.start("solve");
-  const LaplacianSystem system(mesh);
-  const TranslationGauge gauge = choose_gauge(mesh, system.components(), separable.fields);
-  const SolvedShapes shapes = solve_fields(system, separable, gauge);
+  const std::unique_ptr<SolvedTimeline> timeline =
+      solve_timeline(recipe, mesh, regions, options.solve, observer);
   clock.start("export");
   const SmoothingGroups groups = find_smoothing_groups(sources.front(), mesh);
   PendingOutputs outputs;
-  const SolvedRecipe solved{recipe, sources.front(), mesh,   regions, separable,
-                            system, gauge,           shapes, groups};
-  std::vector<std::filesystem::path> staged(recipe.outputs.size());
+  const SolvedRecipe solved{recipe, sources.front(), mesh, regions, *timeline, groups};
+  std::vector<StagedOutput> staged;
   for (std::size_t i = 0; i < recipe.outputs.size(); ++i) {
-    bake_report.outputs.push_back(stage_output(solved, i, options, observer, outputs, staged[i]));
+    staged.push_back(stage_output(solved, i, options, observer, outputs));
   }
   if (recipe.preview) {
     clock.start("preview");
-    for (std::size_t i = 0; i < recipe.outputs.size(); ++i) {
-      OutputReport& output = bake_report.outputs[i];
-      TurntableOptions look = options.turntable;
-      look.threads = options.threads;
-      output.previews =
-          stage_previews(staged[i], *recipe.preview, look, stem_of(output.file), observer, outputs);
+    for (auto& [output, file] : staged) {
+      output.previews = stage_previews({file, output.file, stem_of(output.file)},
+                                       turntable_of(*recipe.preview, options),
+                                       recipe.preview->formats, observer, outputs);
     }
   }
   outputs.commit();
+  for (StagedOutput& each : staged) bake_report.outputs.push_back(std::move(each.report));
 
   bake_report.vertices = mesh.connectivity.vertex_count;
   bake_report.triangles = static_cast<int>(mesh.connectivity.triangles.rows());
-  bake_report.components = system.components().count;
+  bake_report.components = timeline->system->components().count;
   bake_report.frames = static_cast<int>(frame_times(recipe.timeline).size());
-  bake_report.solved_shapes = static_cast<int>(separable.fields.size());
+  bake_report.solve = timeline->report;
   bake_report.stages = clock.finish();
   return bake_report;
 }
 
-void validate(const Recipe& recipe, const Observer& observer) {
+void validate(const Recipe& recipe, const BakeOptions& options, const Observer& observer) {
   const MorphableMesh mesh = share_connectivity(load_sources(recipe, observer));
-  separate_timeline(recipe, region_distances(mesh, recipe), mesh.connectivity.vertex_count);
+  check_timeline(recipe, mesh, region_distances(mesh, recipe), options.solve);
 }
 
 }  // namespace morphbake

@@ -7,12 +7,21 @@
 #include "morphbake/bake/options.h"
 #include "morphbake/diagnostics/observer.h"
 #include "morphbake/recipe/recipe.h"
+#include "morphbake/solve/solve_fields.h"
 
 namespace morphbake {
 
 struct StageReport {
   std::string name;
   double seconds = 0;
+};
+
+/// How far written normals are from those of the exact surface.
+struct NormalReport {
+  double maximum = 0;        ///< degrees
+  double percentile_99 = 0;  ///< degrees, of all vertices at all frames and half-way between
+  double time = 0;           ///< seconds, of the largest
+  int vertex = 0;            ///< of the file, counted over its primitives; of the largest
 };
 
 struct OutputReport {
@@ -22,8 +31,18 @@ struct OutputReport {
   int weight_keys = 0;
   double max_error =
       0;  ///< of the written positions at frames and middles, fraction of the diagonal
-  double max_normal_error = 0;  ///< degrees
+  NormalReport normals;
   std::vector<std::filesystem::path> previews;
+};
+
+/// How the timeline's systems were solved.
+struct SolveReport {
+  std::string solver;  ///< "direct", "warm", "pcg", "gauss-seidel", "jacobi"
+  std::string reason;
+  int unknowns = 0;
+  int held = 0;  ///< vertices
+  std::size_t factor_bytes = 0;
+  std::vector<SolveRecord> solves;  ///< errors as fractions of the diagonal
 };
 
 /// What a bake did: --report writes it, schemas/report.schema.json describes it.
@@ -33,7 +52,7 @@ struct BakeReport {
   int triangles = 0;
   int components = 0;
   int frames = 0;
-  int solved_shapes = 0;  ///< right-hand sides that were solved
+  SolveReport solve;
   std::vector<StageReport> stages;
   std::vector<OutputReport> outputs;
   std::vector<Problem> problems;  ///< warnings
@@ -49,7 +68,7 @@ BakeReport bake(const Recipe& recipe, const BakeOptions& options, const Observer
 /// Checks names, sources, landmarks and topology without solving or writing.
 ///
 /// @throws BakeError with all problems found
-void validate(const Recipe& recipe, const Observer& observer);
+void validate(const Recipe& recipe, const BakeOptions& options, const Observer& observer);
 
 /// Renders the turntable of any morph glTF.
 ///
@@ -58,7 +77,7 @@ void validate(const Recipe& recipe, const Observer& observer);
 /// @return              the files written
 std::vector<std::filesystem::path> preview(const std::filesystem::path& gltf_file,
                                            const PreviewRequest& request,
-                                           const TurntableOptions& options,
+                                           const BakeOptions& options,
                                            const std::filesystem::path& outputs_stem,
                                            const Observer& observer);
 

@@ -11,13 +11,35 @@
 #include "morphbake/json/schema.h"
 
 namespace morphbake {
+
+// How the choices are written in files; found by nlohmann's conversions through their names.
+NLOHMANN_JSON_SERIALIZE_ENUM(Solver,
+                             {{Solver::Auto, name_of(Solver::Auto)},
+                              {Solver::Direct, name_of(Solver::Direct)},
+                              {Solver::Warm, name_of(Solver::Warm)},
+                              {Solver::ConjugateGradients, name_of(Solver::ConjugateGradients)},
+                              {Solver::GaussSeidel, name_of(Solver::GaussSeidel)},
+                              {Solver::Jacobi, name_of(Solver::Jacobi)}})
+NLOHMANN_JSON_SERIALIZE_ENUM(RightHandSide,
+                             {{RightHandSide::Edge, "edge"}, {RightHandSide::Vertex, "vertex"}})
+
 namespace {
 
 /// One option of a stage: its name in files, and where its value is kept.
 template <typename Stage>
 struct Field {
   const char* name;
-  std::variant<int Stage::*, double Stage::*, bool Stage::*, std::array<double, 3> Stage::*> member;
+  std::variant<int Stage::*, double Stage::*, bool Stage::*, std::array<double, 3> Stage::*,
+               Solver Stage::*, RightHandSide Stage::*>
+      member;
+};
+
+constexpr Field<SolveOptions> solve_fields[] = {
+    {"solver", &SolveOptions::solver},
+    {"right_hand_side", &SolveOptions::right_hand_side},
+    {"tolerance", &SolveOptions::tolerance},
+    {"max_iterations", &SolveOptions::max_iterations},
+    {"every_frame", &SolveOptions::every_frame},
 };
 
 constexpr Field<BasisOptions> basis_fields[] = {
@@ -40,6 +62,7 @@ constexpr Field<TurntableOptions> turntable_fields[] = {
 /// them.
 template <typename Options, typename Function>
 void for_each_stage(Options& options, const Function& each) {
+  each("solve", options.solve, solve_fields);
   each("basis", options.basis, basis_fields);
   each("turntable", options.turntable, turntable_fields);
 }
@@ -71,7 +94,7 @@ std::vector<std::string> known_pointers() {
   const Json defaults = to_json({});
   for (const auto& [stage, fields] : defaults.items()) {
     for (const auto& [field, value] : fields.items()) {
-      pointers.push_back("/" + stage + "/" + field);
+      pointers.push_back(fmt::format("/{}/{}", stage, field));
     }
   }
   return pointers;

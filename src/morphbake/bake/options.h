@@ -5,11 +5,13 @@
 
 #include "morphbake/basis/basis_options.h"
 #include "morphbake/preview/turntable.h"
+#include "morphbake/solve/solve_options.h"
 
 namespace morphbake {
 
 /// Options of every stage, grouped by the stage's name: the same tree as config/bake.json.
 struct BakeOptions {
+  SolveOptions solve;
   BasisOptions basis;
   TurntableOptions turntable;
   int threads = 0;  ///< 0: all cores; never changes a byte, so it is no field of a file

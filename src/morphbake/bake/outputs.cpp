@@ -12,20 +12,26 @@ namespace {
 // What three.js and Babylon.js read at most.
 constexpr std::size_t kEngineTargetLimit = 255;
 
-Positions still_positions(const SolvedRecipe& solved, const Still& still) {
+Positions still_positions(const SolvedRecipe& solved, const Still& still,
+                          const SolveOptions& options) {
   const Recipe& recipe = solved.recipe;
   if (const double* time = std::get_if<double>(&still.at)) {
-    return combine_shapes(solved.shapes,
-                          field_coefficients(recipe.timeline, solved.separable, *time));
+    return position_at(recipe, solved.mesh, solved.regions, solved.timeline, *time);
   }
   const State& state = recipe.states[static_cast<std::size_t>(std::get<int>(still.at))];
-  const auto vertex_count = static_cast<Eigen::Index>(solved.mesh.connectivity.vertex_count);
-  return solved.system.solve_or_blend(state_transition(state, solved.regions, vertex_count),
-                                      solved.gauge);
+  return solve_state(recipe, state, solved.mesh, solved.regions, options);
 }
 
-void warn_of_many_targets(const Recipe& recipe, std::size_t index, std::size_t count,
-                          const Observer& observer) {
+void warn_of_targets(const Recipe& recipe, std::size_t index, std::size_t count,
+                     const Observer& observer) {
+  if (count == 0) {
+    report(observer,
+           Problem{Severity::Warning,
+                   "basis.nothing-moves",
+                   {recipe.file.string(), fmt::format("/outputs/{}", index), 0, 0},
+                   "no track or key changes any vertex: the file is a plain mesh",
+                   "check that regions reach vertices, and that tracks lead to another source"});
+  }
   if (count <= kEngineTargetLimit) return;
   report(observer, Problem{Severity::Warning,
                            "export.many-targets",
@@ -35,14 +41,37 @@ void warn_of_many_targets(const Recipe& recipe, std::size_t index, std::size_t c
                            "use \"targets\": \"tracks\", a lower fps or a shorter timeline"});
 }
 
+void check_normals(const Recipe& recipe, std::size_t index, const NormalReport& normals,
+                   const Observer& observer) {
+  const Output& output = recipe.outputs[index];
+  const NormalBounds& bounds = output.max_normal_error;
+  const bool is_whole = normals.maximum <= bounds.maximum.value_or(180);
+  const bool is_mostly = normals.percentile_99 <= bounds.percentile_99.value_or(180);
+  if (is_whole && is_mostly) return;
+  const double bound = is_whole ? *bounds.percentile_99 : *bounds.maximum;
+  Problem problem{
+      output.unmet_is_error ? Severity::Error : Severity::Warning,
+      "export.normal-error",
+      {recipe.file.string(), fmt::format("/outputs/{}/max_normal_error", index), 0, 0},
+      fmt::format(
+          "normals are up to {:.2f} degrees off ({:.2f} for 99 in 100), more than the {:.4g} "
+          "that are allowed; worst at vertex {} and {:.4g} s",
+          normals.maximum, normals.percentile_99, bound, normals.vertex, normals.time),
+      "\"targets\": \"frames\" follows normals closer than \"tracks\"; a larger bound, or "
+      "\"unmet\": \"warning\", accepts it"};
+  if (output.unmet_is_error) throw BakeError(std::move(problem));
+  report(observer, problem);
+}
+
 /// A morph and the motion that it is to show.
 struct MorphWithMotion {
   MeshMorph morph;
   ReferenceMotion motion;
 };
 
-MorphWithMotion make_still_output(const SolvedRecipe& solved, const Still& still) {
-  const Positions positions = still_positions(solved, still);
+MorphWithMotion make_still_output(const SolvedRecipe& solved, const Still& still,
+                                  const SolveOptions& options) {
+  const Positions positions = still_positions(solved, still, options);
   return {make_still(solved.first, solved.mesh, solved.groups, positions),
           {{0.0}, [positions](double) { return positions; }}};
 }
@@ -50,11 +79,12 @@ MorphWithMotion make_still_output(const SolvedRecipe& solved, const Still& still
 MorphWithMotion make_animated_output(const SolvedRecipe& solved, TargetKind targets,
                                      const BasisOptions& options) {
   const Timeline& timeline = solved.recipe.timeline;
+  const auto& [separable, system, solver, shapes, frames, report] = solved.timeline;
+  const bool by_track = targets == TargetKind::Tracks;
   const ReferenceMotion motion =
-      reference_motion(solved.shapes, solved.separable, timeline, targets);
-  const MorphBasis basis = targets == TargetKind::Tracks
-                               ? track_basis(solved.shapes, solved.separable, timeline, options)
-                               : frame_basis(solved.shapes, solved.separable, timeline);
+      by_track ? continuous_motion(shapes, separable, timeline) : stepped_motion(frames);
+  const MorphBasis basis =
+      by_track ? track_basis(shapes, separable, timeline, options) : frame_basis(frames);
   MeshMorph morph = make_mesh_morph(solved.first, solved.mesh, basis, solved.groups, motion);
   morph.animation_name = solved.recipe.name;
   return {std::move(morph), motion};
@@ -62,29 +92,31 @@ MorphWithMotion make_animated_output(const SolvedRecipe& solved, TargetKind targ
 
 }  // namespace
 
-OutputReport stage_output(const SolvedRecipe& solved, std::size_t index, const BakeOptions& options,
-                          const Observer& observer, PendingOutputs& outputs,
-                          std::filesystem::path& staged) {
+StagedOutput stage_output(const SolvedRecipe& solved, std::size_t index, const BakeOptions& options,
+                          const Observer& observer, PendingOutputs& outputs) {
   const Output& output = solved.recipe.outputs[index];
   const auto [morph, motion] = output.still
-                                   ? make_still_output(solved, *output.still)
+                                   ? make_still_output(solved, *output.still, options.solve)
                                    : make_animated_output(solved, output.targets, options.basis);
-  warn_of_many_targets(solved.recipe, index, morph.target_names.size(), observer);
+  if (!output.still) warn_of_targets(solved.recipe, index, morph.target_names.size(), observer);
   const MorphError error =
       measure_mesh_morph(solved.first, solved.mesh, morph, solved.groups, motion);
   const std::string bytes =
       write_morph_glb(solved.first.file, morph, fmt::format("morphbake {}", version()));
-  staged = outputs.stage(output.file, bytes);
+  StagedOutput staged;
+  staged.file = outputs.stage(output.file, bytes);
 
   const double diagonal = bounding_diagonal(motion.positions_at(0));
-  OutputReport report;
+  OutputReport& report = staged.report;
   report.file = output.file;
   report.bytes = bytes.size();
   report.targets = morph.target_names;
   report.weight_keys = static_cast<int>(morph.key_times.size());
   report.max_error = diagonal > 0 ? error.distance / diagonal : 0;
-  report.max_normal_error = error.normal_angle;
-  return report;
+  report.normals = {error.normal_angle, error.normal_angle_99, error.normal_time,
+                    error.normal_vertex};
+  check_normals(solved.recipe, index, report.normals, observer);
+  return staged;
 }
 
 }  // namespace morphbake

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "morphbake/bake/bake.h"
+#include "morphbake/bake/solve_timeline.h"
 #include "morphbake/connectivity/morphable_mesh.h"
 #include "morphbake/export/mesh_morph.h"
 #include "morphbake/files/files.h"
@@ -13,18 +14,20 @@ struct SolvedRecipe {
   const SourceMesh& first;
   const MorphableMesh& mesh;
   const std::vector<Eigen::VectorXd>& regions;
-  const SeparableTimeline& separable;
-  const LaplacianSystem& system;
-  const TranslationGauge& gauge;
-  const SolvedShapes& shapes;
+  const SolvedTimeline& timeline;
   const SmoothingGroups& groups;
+};
+
+/// An output that waits to be committed.
+struct StagedOutput {
+  OutputReport report;
+  std::filesystem::path file;  ///< the temporary one
 };
 
 /// Reduces, writes and measures one output.
 ///
-/// @return  its report; `staged` is the temporary file
-OutputReport stage_output(const SolvedRecipe& solved, std::size_t index, const BakeOptions& options,
-                          const Observer& observer, PendingOutputs& outputs,
-                          std::filesystem::path& staged);
+/// @throws BakeError "export.normal-error" when a bound on normals is not kept and shall be
+StagedOutput stage_output(const SolvedRecipe& solved, std::size_t index, const BakeOptions& options,
+                          const Observer& observer, PendingOutputs& outputs);
 
 }  // namespace morphbake

@@ -2,6 +2,8 @@
 
 #include <fmt/core.h>
 
+#include <utility>
+
 #include "morphbake/bake/bake.h"
 
 namespace morphbake {
@@ -24,37 +26,59 @@ std::vector<Image> sheet_pictures(const std::vector<Image>& frames) {
   return chosen;
 }
 
+/// Problems name the file as it will be called, not the staged one.
+std::vector<Image> render(const PreviewPaths& paths, const TurntableOptions& look,
+                          const Observer& observer) {
+  try {
+    return render_turntable(read_animated_mesh(paths.gltf_file), look, observer);
+  } catch (const BakeError& error) {
+    std::vector<Problem> problems = error.problems();
+    for (Problem& problem : problems) {
+      std::string& file = problem.location.file;
+      const std::string staged = paths.gltf_file.string();
+      if (file.starts_with(staged)) file.replace(0, staged.size(), paths.shown.string());
+      if (file.empty()) file = paths.shown.string();
+    }
+    throw BakeError(std::move(problems));
+  }
+}
+
 fs::path with_suffix(const fs::path& stem, const std::string& suffix) {
   return stem.string() + suffix;
 }
 
 }  // namespace
 
-std::vector<fs::path> stage_previews(const fs::path& gltf_file, const PreviewRequest& request,
-                                     TurntableOptions options, const fs::path& stem,
+TurntableOptions turntable_of(const PreviewRequest& request, const BakeOptions& options) {
+  TurntableOptions look = options.turntable;
+  look.threads = options.threads;
+  look.width = request.width;
+  look.height = request.height;
+  look.frames = request.frames;
+  return look;
+}
+
+std::vector<fs::path> stage_previews(const PreviewPaths& paths, const TurntableOptions& look,
+                                     const std::vector<PreviewFormat>& formats,
                                      const Observer& observer, PendingOutputs& outputs) {
-  options.width = request.width;
-  options.height = request.height;
-  options.frames = request.frames;
-  const std::vector<Image> frames =
-      render_turntable(read_animated_mesh(gltf_file), options, observer);
+  const std::vector<Image> frames = render(paths, look, observer);
   std::vector<fs::path> files;
-  for (const PreviewFormat format : request.formats) {
+  for (const PreviewFormat format : formats) {
     switch (format) {
       case PreviewFormat::Png:
         for (std::size_t f = 0; f < frames.size(); ++f) {
-          files.push_back(with_suffix(stem, ".frames") / fmt::format("{:04d}.png", f));
+          files.push_back(with_suffix(paths.stem, ".frames") / fmt::format("{:04d}.png", f));
           outputs.stage(files.back(), encode_png(frames[f]));
         }
         break;
       case PreviewFormat::Gif:
-        files.push_back(with_suffix(stem, ".gif"));
+        files.push_back(with_suffix(paths.stem, ".gif"));
         write_gif(outputs.stage_external(files.back()), frames, kFramesPerSecond);
         break;
       case PreviewFormat::Sheet:
-        files.push_back(with_suffix(stem, ".sheet.png"));
+        files.push_back(with_suffix(paths.stem, ".sheet.png"));
         outputs.stage(files.back(), encode_png(contact_sheet(sheet_pictures(frames), kSheetColumns,
-                                                             request.width / 2)));
+                                                             look.width / 2)));
         break;
     }
   }
@@ -62,11 +86,12 @@ std::vector<fs::path> stage_previews(const fs::path& gltf_file, const PreviewReq
 }
 
 std::vector<fs::path> preview(const fs::path& gltf_file, const PreviewRequest& request,
-                              const TurntableOptions& options, const fs::path& outputs_stem,
+                              const BakeOptions& options, const fs::path& outputs_stem,
                               const Observer& observer) {
   PendingOutputs outputs;
   std::vector<fs::path> files =
-      stage_previews(gltf_file, request, options, outputs_stem, observer, outputs);
+      stage_previews({gltf_file, gltf_file, outputs_stem}, turntable_of(request, options),
+                     request.formats, observer, outputs);
   outputs.commit();
   return files;
 }

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <vector>
 
+#include "morphbake/bake/options.h"
 #include "morphbake/diagnostics/observer.h"
 #include "morphbake/files/files.h"
 #include "morphbake/preview/turntable.h"
@@ -10,11 +11,23 @@
 
 namespace morphbake {
 
-/// Renders what `gltf_file` holds and stages stem.gif, stem.sheet.png and stem.frames/0000.png ...
+/// Where pictures come from and go to.
+struct PreviewPaths {
+  std::filesystem::path gltf_file;
+  std::filesystem::path shown;  ///< what messages call that file
+  std::filesystem::path stem;   ///< "dir/name"
+};
+
+/// The look of a recipe's turntable.
+TurntableOptions turntable_of(const PreviewRequest& request, const BakeOptions& options);
+
+/// Renders what the file holds and stages stem.gif, stem.sheet.png and stem.frames/0000.png ...
 ///
 /// @return  the final names of the staged files
-std::vector<std::filesystem::path> stage_previews(
-    const std::filesystem::path& gltf_file, const PreviewRequest& request, TurntableOptions options,
-    const std::filesystem::path& stem, const Observer& observer, PendingOutputs& outputs);
+std::vector<std::filesystem::path> stage_previews(const PreviewPaths& paths,
+                                                  const TurntableOptions& look,
+                                                  const std::vector<PreviewFormat>& formats,
+                                                  const Observer& observer,
+                                                  PendingOutputs& outputs);
 
 }  // namespace morphbake

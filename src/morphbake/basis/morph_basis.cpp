@@ -76,6 +76,7 @@ class WeightCurves {
   }
 
   /// Appends the keys strictly between `from` and `to`.
+  // NOLINTNEXTLINE(performance-unnecessary-value-param): a reference into keys_ would dangle
   void refine(const WeightKey from, const WeightKey& to, int depth) {
     constexpr int kDepthLimit = 16;
     const float middle = from.time + (to.time - from.time) / 2;
@@ -141,20 +142,17 @@ MorphBasis track_basis(const SolvedShapes& shapes, const SeparableTimeline& sepa
   return basis;
 }
 
-MorphBasis frame_basis(const SolvedShapes& shapes, const SeparableTimeline& separable,
-                       const Timeline& timeline) {
-  const std::vector<double> times = frame_times(timeline);
+MorphBasis frame_basis(const FrameSource& frames) {
+  const std::vector<double>& times = frames.times;
   MorphBasis basis;
-  basis.base = combine_shapes(shapes, field_coefficients(timeline, separable, 0));
+  basis.base = frames.positions(0);
   std::vector<WeightKey> keys;
   const auto target_count = static_cast<Eigen::Index>(times.size()) - 1;
   for (std::size_t f = 0; f < times.size(); ++f) {
     Eigen::VectorXd weights = Eigen::VectorXd::Zero(target_count);
     if (f > 0) {
       weights(static_cast<Eigen::Index>(f) - 1) = 1;
-      const Positions frame =
-          combine_shapes(shapes, field_coefficients(timeline, separable, times[f]));
-      basis.targets.push_back({fmt::format("frame-{:04d}", f), frame - basis.base});
+      basis.targets.push_back({fmt::format("frame-{:04d}", f), frames.positions(f) - basis.base});
     }
     keys.push_back({static_cast<float>(times[f]), weights});
   }

@@ -6,7 +6,7 @@
 #include "morphbake/basis/basis_options.h"
 #include "morphbake/mesh/mesh.h"
 #include "morphbake/recipe/recipe.h"
-#include "morphbake/solve/solve_fields.h"
+#include "morphbake/solve/frame_source.h"
 
 namespace morphbake {
 
@@ -30,7 +30,6 @@ MorphBasis track_basis(const SolvedShapes& shapes, const SeparableTimeline& sepa
                        const Timeline& timeline, const BasisOptions& options);
 
 /// One target a frame, each fading into the next.
-MorphBasis frame_basis(const SolvedShapes& shapes, const SeparableTimeline& separable,
-                       const Timeline& timeline);
+MorphBasis frame_basis(const FrameSource& frames);
 
 }  // namespace morphbake

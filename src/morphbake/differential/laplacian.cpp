@@ -49,4 +49,16 @@ Positions blend_edge_differences(const OneRings& rings, const std::vector<Positi
   return b;
 }
 
+Positions blend_vertex_differences(const OneRings& rings, const std::vector<Positions>& geometries,
+                                   const Eigen::MatrixXd& weights) {
+  Positions b = Positions::Zero(weights.cols(), 3);
+  for (std::size_t s = 0; s < geometries.size(); ++s) {
+    const Positions W = differential_coordinates(rings, geometries[s]);
+    for (int i = 0; i < b.rows(); ++i) {
+      b.row(i) += rings.degree(i) * weights(static_cast<Eigen::Index>(s), i) * W.row(i);
+    }
+  }
+  return b;
+}
+
 }  // namespace morphbake

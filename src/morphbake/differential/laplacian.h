@@ -32,4 +32,17 @@ Eigen::SparseMatrix<double> symmetric_laplacian(const OneRings& rings);
 Positions blend_edge_differences(const OneRings& rings, const std::vector<Positions>& geometries,
                                  const Eigen::MatrixXd& weights);
 
+/// Right-hand side that blends differential coordinates at vertices, eq. 6 of the paper times the
+/// degree:
+///
+///   b_i = deg_i sum_s T_s,i w_s,i
+///
+/// Where T varies in space it does not sum to 0: the system has no solution until it is balanced.
+/// @param geometries  one a source: #V by 3
+/// @param weights     #sources by #V
+/// @return            b: #V by 3
+/// @see               Alexa 2003, eq. 6
+Positions blend_vertex_differences(const OneRings& rings, const std::vector<Positions>& geometries,
+                                   const Eigen::MatrixXd& weights);
+
 }  // namespace morphbake

@@ -23,6 +23,7 @@ std::vector<Normals> fit_normal_targets(const MorphableMesh& mesh, const MorphBa
                                         const ReferenceMotion& motion,
                                         const Eigen::Matrix3d& linear) {
   const auto target_count = static_cast<Eigen::Index>(basis.targets.size());
+  if (target_count == 0) return {};
   const Normals rest = to_mesh_space(deformed_normals(groups, mesh, basis.base), linear);
   Eigen::MatrixXd gram = Eigen::MatrixXd::Zero(target_count, target_count);
   std::vector<Normals> moments(basis.targets.size(), Normals::Zero(groups.count, 3));
@@ -102,21 +103,23 @@ void add_rest(const SourceMesh& first, const MorphableMesh& mesh, const Smoothin
 
 }  // namespace
 
-ReferenceMotion reference_motion(const SolvedShapes& shapes, const SeparableTimeline& separable,
-                                 const Timeline& timeline, TargetKind kind) {
-  const std::vector<double> times = frame_times(timeline);
-  const auto exact = [&](double time) {
-    return combine_shapes(shapes, field_coefficients(timeline, separable, time));
-  };
-  if (kind == TargetKind::Tracks) return {times, exact};
-  const auto between_frames = [exact, times](double time) -> Positions {
-    const auto next = std::lower_bound(times.begin(), times.end(), time);
-    if (next == times.end() || *next == time) return exact(time);
-    const double begin = *(next - 1);
-    const double share = (time - begin) / (*next - begin);
-    return (1 - share) * exact(begin) + share * exact(*next);
-  };
-  return {times, between_frames};
+ReferenceMotion continuous_motion(const SolvedShapes& shapes, const SeparableTimeline& separable,
+                                  const Timeline& timeline) {
+  return {frame_times(timeline), [&](double time) {
+            return combine_shapes(shapes, field_coefficients(timeline, separable, time));
+          }};
+}
+
+ReferenceMotion stepped_motion(const FrameSource& frames) {
+  return {frames.times, [&frames](double time) -> Positions {
+            const std::vector<double>& times = frames.times;
+            const auto next = std::lower_bound(times.begin(), times.end(), time);
+            if (next == times.end()) return frames.positions(times.size() - 1);
+            const auto frame = static_cast<std::size_t>(next - times.begin());
+            if (*next == time || frame == 0) return frames.positions(frame);
+            const double share = (time - times[frame - 1]) / (*next - times[frame - 1]);
+            return (1 - share) * frames.positions(frame - 1) + share * frames.positions(frame);
+          }};
 }
 
 MeshMorph make_mesh_morph(const SourceMesh& first, const MorphableMesh& mesh,

@@ -15,9 +15,16 @@ struct ReferenceMotion {
   std::function<Positions(double time)> positions_at;  ///< #V by 3, scene space
 };
 
-/// The motion of `timeline`. For `Frames` the truth between two frames is the line between them.
-ReferenceMotion reference_motion(const SolvedShapes& shapes, const SeparableTimeline& separable,
-                                 const Timeline& timeline, TargetKind kind);
+/// The motion of a separable timeline, exact at any time.
+///
+/// @param shapes, separable, timeline  must outlive the motion
+ReferenceMotion continuous_motion(const SolvedShapes& shapes, const SeparableTimeline& separable,
+                                  const Timeline& timeline);
+
+/// The motion that goes straight from frame to frame.
+///
+/// @param frames  must outlive the motion
+ReferenceMotion stepped_motion(const FrameSource& frames);
 
 /// Brings a basis from K and scene space to the primitives of the first source's file.
 ///
@@ -34,10 +41,11 @@ MeshMorph make_still(const SourceMesh& first, const MorphableMesh& mesh,
 /// How far what is written is from the motion, over all frames and the moments half-way between
 /// them.
 struct MorphError {
-  double distance = 0;      ///< scene units, largest
-  double normal_angle = 0;  ///< degrees, largest
-  double normal_time = 0;   ///< seconds, where that is
-  int normal_vertex = 0;    ///< vertex of K where that is
+  double distance = 0;         ///< scene units, largest
+  double normal_angle = 0;     ///< degrees, largest
+  double normal_angle_99 = 0;  ///< degrees, of 99 in 100 vertices and moments
+  double normal_time = 0;      ///< seconds, where the largest is
+  int normal_vertex = 0;       ///< vertex of the first source's file where it is
 };
 
 MorphError measure_mesh_morph(const SourceMesh& first, const MorphableMesh& mesh,

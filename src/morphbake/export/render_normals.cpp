@@ -50,9 +50,17 @@ SmoothingGroups find_smoothing_groups(const SourceMesh& first, const MorphableMe
   // Normals go to the scene by the inverse transpose (glTF 2.0, 3.7.2.1).
   const Eigen::Matrix3d inverse = first.geometry.to_scene.topLeftCorner<3, 3>().inverse();
   const Float3s chosen = file_normals(render_of_group, Eigen::all);
-  groups.source_normals = (chosen.cast<double>() * inverse).rowwise().normalized();
   groups.surface_normals = corner_group_normals(mesh.geometries[0], mesh.connectivity.triangles,
                                                 groups.of_corner, groups.count);
+  groups.source_normals = chosen.cast<double>() * inverse;
+  for (int g = 0; g < groups.count; ++g) {
+    const double length = groups.source_normals.row(g).norm();
+    if (length > 0) {
+      groups.source_normals.row(g) /= length;
+    } else {  // a NORMAL without length says nothing; the surface does
+      groups.source_normals.row(g) = groups.surface_normals.row(g);
+    }
+  }
   return groups;
 }
 

@@ -123,7 +123,13 @@ PendingOutputs::~PendingOutputs() {
 fs::path PendingOutputs::stage_external(const fs::path& path) {
   make_folders(path.parent_path(), made_folders_);
   if (fs::is_directory(path)) fail_to_write(path, EISDIR);
-  entries_.push_back({temporary_beside(path), path});
+  if (fs::exists(path) && !fs::is_regular_file(path)) {
+    fail("output.unwritable", path, "this is a device or pipe, which no file may replace",
+         "choose the name of a file");
+  }
+  // A link stays a link: what it names is replaced.
+  const fs::path target = fs::is_symlink(path) ? fs::weakly_canonical(path) : path;
+  entries_.push_back({temporary_beside(target), target});
   return entries_.back().temporary;
 }
 

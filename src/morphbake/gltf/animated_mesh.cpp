@@ -44,23 +44,30 @@ Float2s read_texture_coordinates(const GltfDocument& document, const Attributes&
 }
 
 /// Index into mesh.images of a texture's picture, whose bytes are added when new; -1 for none.
-int add_image(const GltfDocument& document, int texture, std::map<int, int>& known,
-              AnimatedMesh& mesh) {
+/// Which images of the file a mesh uses, each once.
+struct UsedImages {
+  std::map<int, int> index;        ///< the file's -> one of `bytes`
+  std::vector<std::string> bytes;  ///< encoded
+  std::vector<std::string> names;  ///< for messages
+};
+
+int add_image(const GltfDocument& document, int texture, UsedImages& images) {
   const tinygltf::Model& model = document.model;
   if (texture < 0 || static_cast<std::size_t>(texture) >= model.textures.size()) return -1;
   const int source = model.textures[static_cast<std::size_t>(texture)].source;
   if (source < 0 || static_cast<std::size_t>(source) >= model.images.size()) return -1;
-  const auto [entry, is_new] = known.try_emplace(source, static_cast<int>(mesh.images.size()));
+  const auto [entry, is_new] =
+      images.index.try_emplace(source, static_cast<int>(images.bytes.size()));
   if (is_new) {
     const auto& bytes = model.images[static_cast<std::size_t>(source)].image;
-    mesh.images.emplace_back(bytes.begin(), bytes.end());
+    images.bytes.emplace_back(bytes.begin(), bytes.end());
+    images.names.push_back(fmt::format("{}#/images/{}", document.file.string(), source));
   }
   return entry->second;
 }
 
 void read_material(const GltfDocument& document, const tinygltf::Primitive& source,
-                   const std::string& pointer, std::map<int, int>& known, AnimatedMesh& mesh,
-                   AnimatedPrimitive& primitive) {
+                   const std::string& pointer, UsedImages& images, AnimatedPrimitive& primitive) {
   const auto& materials = document.model.materials;
   if (source.material < 0 || static_cast<std::size_t>(source.material) >= materials.size()) return;
   const auto& surface = materials[static_cast<std::size_t>(source.material)].pbrMetallicRoughness;
@@ -68,7 +75,7 @@ void read_material(const GltfDocument& document, const tinygltf::Primitive& sour
     primitive.base_colour =
         Eigen::Map<const Eigen::Vector3d>(surface.baseColorFactor.data()).cast<float>();
   }
-  primitive.image = add_image(document, surface.baseColorTexture.index, known, mesh);
+  primitive.image = add_image(document, surface.baseColorTexture.index, images);
   if (primitive.image < 0) return;
   primitive.texture_coordinates = read_texture_coordinates(
       document, source.attributes, surface.baseColorTexture.texCoord, pointer + "/attributes");
@@ -183,15 +190,16 @@ AnimatedMesh read_animated_mesh(const std::filesystem::path& file) {
   const tinygltf::Mesh& source = meshes[static_cast<std::size_t>(at.mesh)];
   AnimatedMesh mesh;
   mesh.to_scene = at.to_scene;
-  std::map<int, int> known_images;
+  UsedImages images;
   std::size_t target_count = 0;
   for (std::size_t p = 0; p < source.primitives.size(); ++p) {
     const std::string pointer = primitive_pointer(at.mesh, p);
     mesh.primitives.push_back(read_primitive(document, source.primitives[p], pointer));
-    read_material(document, source.primitives[p], pointer, known_images, mesh,
-                  mesh.primitives.back());
+    read_material(document, source.primitives[p], pointer, images, mesh.primitives.back());
     target_count = std::max(target_count, source.primitives[p].targets.size());
   }
+  mesh.images = std::move(images.bytes);
+  mesh.image_names = std::move(images.names);
   mesh.target_names = read_target_names(source, target_count);
   read_rest_weights(document.model.nodes[static_cast<std::size_t>(at.node)], source, mesh);
   read_weights_animation(document, at.node, mesh);

@@ -30,6 +30,7 @@ struct AnimatedMesh {
   Eigen::Matrix4d to_scene = Eigen::Matrix4d::Identity();  ///< global transform of the node
   std::vector<std::string> target_names;  ///< one a target, "" when the file names none
   std::vector<std::string> images;        ///< encoded bytes (PNG, JPEG) of the images that are used
+  std::vector<std::string> image_names;   ///< one an image, for messages: "a.glb#/images/0"
   std::vector<float> key_times;           ///< seconds, rising; empty without animation
   Eigen::MatrixXf
       key_weights;  ///< #keys (one row of rest weights without animation) by #targets, LINEAR

@@ -16,7 +16,7 @@ using GltfFile = std::shared_ptr<const GltfDocument>;
 /// Buffer and image URIs must stay inside the file's folder.
 /// @throws BakeError "gltf.not-gltf", "gltf.truncated", "gltf.version", "gltf.invalid",
 /// "gltf.outside-folder",
-///         "gltf.unsupported-extension", "gltf.buffer", "gltf.missing-file",
+///         "gltf.unsupported-extension", "gltf.wrong-type", "gltf.missing-file",
 ///         "gltf.json-syntax", "gltf.json-duplicate-key", "gltf.json-too-deep"
 GltfFile open_gltf(const std::filesystem::path& file);
 

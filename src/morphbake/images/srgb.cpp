@@ -44,7 +44,7 @@ float srgb_to_linear(float value) {
 std::uint8_t linear_to_srgb(float linear) {
   static const std::vector<std::uint8_t> table = encoding_table();
   if (!(linear > 0.0f)) return 0;
-  return table[static_cast<std::size_t>(std::min(linear, 1.0f) * kEncodingSteps + 0.5f)];
+  return table[static_cast<std::size_t>(std::lround(std::min(linear, 1.0f) * kEncodingSteps))];
 }
 
 }  // namespace morphbake

@@ -18,7 +18,7 @@ Normals corner_group_normals(const Positions& positions, const Triangles& triang
       const Eigen::RowVector3d u = corners[(k + 1) % 3] - corners[k];
       const Eigen::RowVector3d v = corners[(k + 2) % 3] - corners[k];
       const double angle = std::atan2(doubled_area, u.dot(v));
-      sums.row(corner_groups[static_cast<std::size_t>(3 * f + k)]) +=
+      sums.row(corner_groups[3 * static_cast<std::size_t>(f) + static_cast<std::size_t>(k)]) +=
           (angle / doubled_area) * area_normal;
     }
   }

@@ -86,7 +86,7 @@ Appearance make_appearance(const AnimatedMesh& mesh) {
     if (!has_texture(primitive)) continue;
     const std::size_t image = static_cast<std::size_t>(primitive.image);
     if (!appearance.textures[image].empty()) continue;
-    const std::string name = "image " + std::to_string(primitive.image);
+    const std::string name = image < mesh.image_names.size() ? mesh.image_names[image] : "";
     appearance.textures[image] = make_mip_levels(decode_image(mesh.images[image], name));
   }
   return appearance;

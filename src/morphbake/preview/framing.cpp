@@ -97,29 +97,41 @@ Eigen::Affine3d table_transform(const AnimatedMesh& mesh, const Eigen::AlignedBo
 
 using Silhouette = std::vector<Eigen::Vector3d>;  ///< view axes: right, up, towards the camera
 
+/// The points that reach furthest to the four sides of a picture.
+struct Extremes {
+  std::array<Eigen::Vector3d, 4> points{};
+  std::array<double, 4> reach{-1e30, -1e30, -1e30, -1e30};
+
+  void add(const Eigen::Vector3d& point, const Eigen::Vector2d& seen) {
+    const std::array<double, 4> sides{-seen.x(), seen.x(), -seen.y(), seen.y()};
+    for (std::size_t side = 0; side < 4; ++side) {
+      if (sides[side] <= reach[side]) continue;
+      reach[side] = sides[side];
+      points[side] = point;
+    }
+  }
+};
+
 /// The vertices that bound the picture at one of `distances`, four a distance.
 Silhouette silhouette_of(const std::vector<PosedPrimitive>& poses, const Eigen::Matrix3d& view,
                          const std::array<double, 4>& distances) {
-  std::array<Eigen::Vector3d, 16> points{};
-  std::array<double, 16> reach;
-  reach.fill(-1e30);
+  std::array<Extremes, 4> extremes;
   bool is_empty = true;
   for (const PosedPrimitive& pose : poses) {
     for (Eigen::Index v = 0; v + 1 < pose.positions.rows(); ++v) {
       const Eigen::Vector3d point = view * pose.positions.row(v).transpose().cast<double>();
       is_empty = false;
       for (std::size_t d = 0; d < distances.size(); ++d) {
-        const Eigen::Vector2d seen = seen_from(point, distances[d]);
-        const std::array<double, 4> sides{-seen.x(), seen.x(), -seen.y(), seen.y()};
-        for (std::size_t side = 0; side < 4; ++side) {
-          if (sides[side] <= reach[d * 4 + side]) continue;
-          reach[d * 4 + side] = sides[side];
-          points[d * 4 + side] = point;
-        }
+        extremes[d].add(point, seen_from(point, distances[d]));
       }
     }
   }
-  return is_empty ? Silhouette{} : Silhouette(points.begin(), points.end());
+  Silhouette silhouette;
+  if (is_empty) return silhouette;
+  for (const Extremes& each : extremes) {
+    silhouette.insert(silhouette.end(), each.points.begin(), each.points.end());
+  }
+  return silhouette;
 }
 
 /// How large the subject is in the picture, as shares of its sides.

@@ -37,7 +37,7 @@ Eigen::Vector2f disk_point(const Eigen::Vector2f& square) {
 
 std::size_t SamplePattern::first_of_pixel(int x, int y) const {
   const int cell = (y & (kPatternSide - 1)) * kPatternSide + (x & (kPatternSide - 1));
-  return static_cast<std::size_t>(cell * samples);
+  return static_cast<std::size_t>(cell) * static_cast<std::size_t>(samples);
 }
 
 SamplePattern make_sample_pattern(int samples) {

@@ -138,7 +138,7 @@ std::string first_recipe(const std::vector<fs::path>& sources, const fs::path& r
   for (std::size_t i = 0; i < sources.size(); ++i) {
     recipe["sources"][names[i]] = relative_name(sources[i], recipe_file);
   }
-  if (!landmark.empty()) recipe["regions"] = regions_around(landmark, names[1]);
+  if (!landmark.empty()) recipe["regions"] = regions_around(landmark, names[0]);
   recipe["timeline"] = {{"fps", 30}, {"start", names[0]}};
   recipe["timeline"]["tracks"] = tracks_through(names, landmark);
   recipe["outputs"] =

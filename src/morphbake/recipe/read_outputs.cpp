@@ -29,6 +29,16 @@ Still read_still(Reading& reading, const Json& at, const std::string& pointer) {
   return {time};
 }
 
+NormalBounds read_normal_bounds(const Json& output) {
+  const Json json = output.value("max_normal_error", Json());
+  NormalBounds bounds;
+  if (json.is_number()) bounds.maximum = json.get<double>();
+  if (!json.is_object()) return bounds;
+  if (json.contains("maximum")) bounds.maximum = json["maximum"].get<double>();
+  if (json.contains("percentile_99")) bounds.percentile_99 = json["percentile_99"].get<double>();
+  return bounds;
+}
+
 Output read_output(Reading& reading, const Json& json, const std::string& pointer) {
   Output output;
   output.file = inside_folder(reading.folder, json["file"].get<std::string>());
@@ -38,6 +48,8 @@ Output read_output(Reading& reading, const Json& json, const std::string& pointe
              "outputs are written below the recipe's folder; --output-dir chooses another one");
   }
   if (json.value("targets", "") == "frames") output.targets = TargetKind::Frames;
+  output.max_normal_error = read_normal_bounds(json);
+  output.unmet_is_error = json.value("unmet", "") != "warning";
   if (!json.contains("still")) return output;
   output.still = read_still(reading, json["still"]["at"], pointer + "/still/at");
   if (json.contains("targets")) {

@@ -62,6 +62,7 @@ void read_parts(Reading& reading) {
   read_regions(reading);
   read_states(reading);
   read_timeline(reading);
+  read_constraints(reading);
   read_outputs(reading);
   read_preview(reading);
 }
@@ -72,7 +73,7 @@ Recipe read_recipe(const std::filesystem::path& file) {
   const Json document = read_json(file, file.string());
   std::vector<Problem> problems =
       schema_problems(document, shipped_schema("recipe.schema.json"), {file.string(), ""});
-  if (!is_readable(problems)) throw_problems(std::move(problems));
+  if (!is_readable(problems)) throw_problems(problems);
   Reading reading{document, std::filesystem::absolute(file).parent_path(), {}, {}, {}};
   reading.recipe.file = file;
   read_parts(reading);

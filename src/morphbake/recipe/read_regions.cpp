@@ -16,27 +16,10 @@ std::string unknown_landmark_hint(const SourceRef& source, const std::string& na
                      source.file.filename().string());
 }
 
-Eigen::Vector3d read_centre(Reading& reading, const Json& at, int source,
-                            const std::string& pointer) {
-  if (at.is_object()) {
-    const Json& position = at["position"];
-    return {position[0].get<double>(), position[1].get<double>(), position[2].get<double>()};
-  }
-  if (source < 0 || !reading.landmarks_known[source]) return Eigen::Vector3d::Zero();
-  const SourceRef& on = reading.recipe.sources[source];
-  const auto name = at.get<std::string>();
-  const int index = index_of(on.landmarks, name);
-  if (index >= 0) return on.landmarks[index].position;
-  complain(reading, "recipe.unknown-name", pointer,
-           fmt::format("source {} has no landmark {}", shown(Json(on.name)), shown(at)),
-           unknown_landmark_hint(on, name));
-  return Eigen::Vector3d::Zero();
-}
-
 BallRegion read_ball(Reading& reading, const Json& json, const std::string& pointer) {
   BallRegion ball;
   ball.source = look_up(reading, reading.recipe.sources, "source", json["on"], pointer + "/on");
-  ball.centre = read_centre(reading, json["at"], ball.source, pointer + "/at");
+  ball.centre = read_place(reading, json["at"], ball.source, pointer + "/at");
   ball.inner = json["inner"].get<double>();
   ball.outer = json["outer"].get<double>();
   if (json.value("distance", "") == "edges") ball.distance = DistanceMeasure::Edges;
@@ -76,6 +59,23 @@ void check_cycles(Reading& reading) {
 }
 
 }  // namespace
+
+Eigen::Vector3d read_place(Reading& reading, const Json& at, int source,
+                           const std::string& pointer) {
+  if (at.is_object()) {
+    const Json& position = at["position"];
+    return {position[0].get<double>(), position[1].get<double>(), position[2].get<double>()};
+  }
+  if (source < 0 || !reading.landmarks_known[source]) return Eigen::Vector3d::Zero();
+  const SourceRef& on = reading.recipe.sources[source];
+  const auto name = at.get<std::string>();
+  const int index = index_of(on.landmarks, name);
+  if (index >= 0) return on.landmarks[index].position;
+  complain(reading, "recipe.unknown-name", pointer,
+           fmt::format("source {} has no landmark {}", shown(Json(on.name)), shown(at)),
+           unknown_landmark_hint(on, name));
+  return Eigen::Vector3d::Zero();
+}
 
 void read_regions(Reading& reading) {
   const Json regions = reading.document.value("regions", Json::object());

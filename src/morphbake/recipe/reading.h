@@ -89,10 +89,17 @@ int state_index(Reading& reading, const Json& name, const std::string& pointer);
 /// @return       lists of nodes, each with an edge to the next and the last to the first
 std::vector<std::vector<int>> find_cycles(const std::vector<std::vector<int>>& edges);
 
+/// A landmark of a source, by name or position; zero after a complaint.
+///
+/// @param source  index, or -1 after a complaint about it
+Eigen::Vector3d read_place(Reading& reading, const Json& at, int source,
+                           const std::string& pointer);
+
 void read_sources(Reading& reading);
 void read_regions(Reading& reading);
 void read_states(Reading& reading);
 void read_timeline(Reading& reading);
+void read_constraints(Reading& reading);
 void read_outputs(Reading& reading);
 void read_preview(Reading& reading);
 

@@ -91,6 +91,24 @@ struct Timeline {
   std::vector<Key> keys;  ///< times rise strictly, the first is 0
 };
 
+/// What may not move at all.
+struct Hold {
+  enum class Rule { Auto, None, Regions };
+
+  Rule rule = Rule::Auto;
+  std::vector<int> regions;  ///< for Rule::Regions: what lies inside of them (d = 0)
+};
+
+/// Where components stand that hold nothing.
+struct Gauge {
+  enum class Kind { Auto, Region, Landmark, Anchor };
+
+  Kind kind = Kind::Auto;
+  int region = -1;                                     ///< for Kind::Region
+  int source = 0;                                      ///< for Landmark and Anchor
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< scene units; snapped to the surface
+};
+
 enum class TargetKind { Tracks, Frames };
 
 /// One moment or state as a plain mesh without animation.
@@ -98,10 +116,18 @@ struct Still {
   std::variant<double, int> at;  ///< seconds, or an index into Recipe::states
 };
 
+/// Bounds on the angle between written and exact normals, in degrees.
+struct NormalBounds {
+  std::optional<double> percentile_99;
+  std::optional<double> maximum;
+};
+
 struct Output {
   std::filesystem::path file;  ///< absolute, .glb
   TargetKind targets = TargetKind::Tracks;
   std::optional<Still> still;
+  NormalBounds max_normal_error;
+  bool unmet_is_error = true;  ///< whether a bound that is not kept stops the bake
 };
 
 enum class PreviewFormat { Png, Gif, Sheet };
@@ -122,6 +148,8 @@ struct Recipe {
   std::vector<RegionOfInterest> regions;
   std::vector<State> states;
   Timeline timeline;
+  Hold hold;
+  Gauge gauge;
   std::vector<Output> outputs;
   std::optional<PreviewRequest> preview;
   std::string options = "{}";  ///< JSON text of the recipe's "options", see bake/options.h

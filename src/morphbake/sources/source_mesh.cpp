@@ -1,8 +1,12 @@
 #include "morphbake/sources/source_mesh.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <array>
 #include <numeric>
+
+#include "morphbake/diagnostics/problem.h"
 
 namespace morphbake {
 namespace {
@@ -11,6 +15,20 @@ Positions to_scene(const Float3s& positions, const Eigen::Matrix4d& transform) {
   const Eigen::Matrix3d linear = transform.topLeftCorner<3, 3>();
   const Eigen::RowVector3d translation = transform.topRightCorner<3, 1>().transpose();
   return (positions.cast<double>() * linear.transpose()).rowwise() + translation;
+}
+
+/// Squares and cubes of lengths must neither overflow nor vanish.
+void check_size(const SourceMesh& mesh) {
+  constexpr double kLargest = 1e60, kSmallest = 1e-60;
+  const double reach = mesh.positions.size() == 0 ? 1 : mesh.positions.cwiseAbs().maxCoeff();
+  if (reach < kLargest && (reach == 0 || reach > kSmallest)) return;
+  throw BakeError(Problem{Severity::Error,
+                          "gltf.extreme-size",
+                          {file_of(mesh.file), fmt::format("/nodes/{}", mesh.geometry.node), 0, 0},
+                          fmt::format("coordinates reach {:.3g} in the scene; {:.0e} to {:.0e} can "
+                                      "be computed with",
+                                      reach, kSmallest, kLargest),
+                          "check the node's scale and matrix"});
 }
 
 }  // namespace
@@ -63,6 +81,7 @@ SourceMesh load_source(const SourceRef& source) {
     vertices += primitive.positions.rows();
     triangles += primitive.triangles.rows();
   }
+  check_size(mesh);
   mesh.welded = weld_rows(mesh.positions, mesh.welded_count);
   return mesh;
 }

@@ -62,19 +62,21 @@ void check_term_count(const Recipe& recipe, std::size_t count) {
       Problem{Severity::Error,
               "transition.too-many-overlaps",
               {recipe.file.string(), "/timeline/tracks", 0, 0},
-              fmt::format("the tracks overlap in more than {} combinations", kFieldLimit - 1),
-              "let tracks that share a region follow one another instead of running at once"});
+              fmt::format("the tracks need more than {} shapes: one each, and one for each "
+                          "combination that overlaps in space and time",
+                          kFieldLimit - 1),
+              "use fewer tracks, and let those that share a region follow one another"});
 }
 
 /// Expands T <- (1 - a m) T + a m S track by track, with a(t) kept symbolic and m = 1 - d.
 Terms expand_tracks(const Recipe& recipe, const std::vector<Eigen::VectorXd>& regions,
                     Eigen::Index vertex_count) {
   const std::vector<Track>& tracks = recipe.timeline.tracks;
-  const auto shares = [&](const Shares& of) {
+  const auto shares = [](const Shares& of) {
     return Eigen::Map<const Eigen::VectorXd>(of.data(), static_cast<Eigen::Index>(of.size()));
   };
   Terms terms;
-  terms[{}] = shares(recipe.timeline.start).replicate(1, vertex_count);
+  terms[{}] = uniform_transition(recipe.timeline.start, vertex_count);
   for (std::size_t i = 0; i < tracks.size(); ++i) {
     const Edit& edit = tracks[i].edit;
     Eigen::RowVectorXd m = Eigen::RowVectorXd::Ones(vertex_count);
@@ -95,8 +97,9 @@ Terms expand_tracks(const Recipe& recipe, const std::vector<Eigen::VectorXd>& re
 
 SeparableTimeline separate_tracks(const Recipe& recipe, const std::vector<Eigen::VectorXd>& regions,
                                   Eigen::Index vertex_count) {
-  SeparableTimeline separable;
+  SeparableTimeline separable{recipe.timeline.start, {}};
   for (auto& [factors, field] : expand_tracks(recipe, regions, vertex_count)) {
+    if (factors.empty()) field -= uniform_transition(recipe.timeline.start, vertex_count);
     // Terms that cancelled, as where a track leads to what is there already, move nothing. Rounding
     // of a sum of shares is at most a few epsilon.
     if (!factors.empty() && field.cwiseAbs().maxCoeff() < 1e-14) continue;
@@ -113,7 +116,8 @@ SeparableTimeline separate_keys(const Recipe& recipe, const std::vector<Eigen::V
     return recipe.states[static_cast<std::size_t>(index)];
   };
   const TransitionState start = state_transition(state(first), regions, vertex_count);
-  SeparableTimeline separable{{{state(first).name, start, {first}}}};
+  SeparableTimeline separable = separate_state(state(first), regions, vertex_count);
+  separable.fields[0].factors = {first};
   for (const Key& key : keys) {
     const bool known =
         std::any_of(separable.fields.begin(), separable.fields.end(),
@@ -183,6 +187,13 @@ SeparableTimeline separate_timeline(const Recipe& recipe,
                                     Eigen::Index vertex_count) {
   return recipe.timeline.keys.empty() ? separate_tracks(recipe, regions, vertex_count)
                                       : separate_keys(recipe, regions, vertex_count);
+}
+
+SeparableTimeline separate_state(const State& state, const std::vector<Eigen::VectorXd>& regions,
+                                 Eigen::Index vertex_count) {
+  const Eigen::MatrixXd change =
+      state_transition(state, regions, vertex_count) - uniform_transition(state.mix, vertex_count);
+  return {state.mix, {{state.name, change, {}}}};
 }
 
 Eigen::VectorXd field_coefficients(const Timeline& timeline, const SeparableTimeline& separable,

@@ -9,18 +9,19 @@ namespace morphbake {
 
 /// One fixed field of a separable timeline.
 struct TransitionField {
-  std::string name;         ///< the track's or the state's; products of tracks are joined by "+"
-  Eigen::MatrixXd weights;  ///< #sources by #V; columns of the first field sum to 1, of others to 0
+  std::string name;          ///< the track's or the state's; products of tracks are joined by "+"
+  Eigen::MatrixXd change;    ///< dT: #sources by #V; columns sum to 0
   std::vector<int> factors;  ///< tracks whose amounts are multiplied, or one state (with keys)
 };
 
-/// T(t) = fields[0] + sum_k phi_k(t) fields[k]: fixed fields with coefficients that depend on time
-/// alone.
+/// T(t) = reference + fields[0] + sum_k phi_k(t) fields[k]: fixed fields with coefficients that
+/// depend on time alone, as changes from a reference that is the same at every vertex.
 ///
 /// Right-hand sides are linear in T and the matrix is constant, so one solve a field gives every
 /// frame. Tracks give one field each, and products where tracks overlap in space and time; keys one
 /// a state.
 struct SeparableTimeline {
+  Shares reference;  ///< of the start: its mix without edits
   std::vector<TransitionField> fields;
 };
 
@@ -29,6 +30,10 @@ struct SeparableTimeline {
 SeparableTimeline separate_timeline(const Recipe& recipe,
                                     const std::vector<Eigen::VectorXd>& regions,
                                     Eigen::Index vertex_count);
+
+/// The timeline that is one state for ever.
+SeparableTimeline separate_state(const State& state, const std::vector<Eigen::VectorXd>& regions,
+                                 Eigen::Index vertex_count);
 
 /// phi at `time`: one a field, the first is 1, all in [0, 1].
 Eigen::VectorXd field_coefficients(const Timeline& timeline, const SeparableTimeline& separable,

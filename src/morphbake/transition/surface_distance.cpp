@@ -120,6 +120,23 @@ Part part_of_component(const Mesh& mesh, const Components& components, int label
   return part;
 }
 
+/// Whether a triangle is so thin that CGAL's intrinsic flips might go round in circles.
+bool has_needles(const Mesh& mesh) {
+  constexpr double kThinnest = 1e-10;  // height over longest side
+  for (Eigen::Index f = 0; f < mesh.triangles.rows(); ++f) {
+    const auto corner = [&](int k) -> Eigen::Vector3d {
+      return mesh.positions.row(mesh.triangles(f, k % 3));
+    };
+    double longest = 0;
+    for (int k = 0; k < 3; ++k) {
+      longest = std::max(longest, (corner(k + 1) - corner(k)).squaredNorm());
+    }
+    const double area = (corner(1) - corner(0)).cross(corner(2) - corner(0)).norm();
+    if (!(area > kThinnest * longest)) return true;
+  }
+  return false;
+}
+
 /// Distances from one point on a connected mesh.
 Eigen::VectorXd heat_distances(const Mesh& mesh, const SurfacePoint& centre) {
   Surface surface = to_cgal(mesh);
@@ -178,7 +195,8 @@ std::vector<Eigen::VectorXd> geodesic_distances(const Mesh& mesh,
     for (int f = 0; f < centre.triangle; ++f) {
       at.triangle += components.label[static_cast<std::size_t>(mesh.triangles(f, 0))] == label;
     }
-    const Eigen::VectorXd inside = heat_distances(part.mesh, at);
+    const Eigen::VectorXd inside =
+        has_needles(part.mesh) ? Eigen::VectorXd::Constant(1, NAN) : heat_distances(part.mesh, at);
     if (!inside.allFinite()) {
       throw BakeError(
           Problem{Severity::Error,

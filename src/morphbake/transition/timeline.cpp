@@ -6,11 +6,6 @@
 namespace morphbake {
 namespace {
 
-TransitionState uniform_transition(const Shares& shares, Eigen::Index vertex_count) {
-  return Eigen::Map<const Eigen::VectorXd>(shares.data(), static_cast<Eigen::Index>(shares.size()))
-      .replicate(1, vertex_count);
-}
-
 TransitionState transition_between_keys(const Recipe& recipe,
                                         const std::vector<Eigen::VectorXd>& regions,
                                         Eigen::Index vertex_count, double time) {
@@ -49,6 +44,11 @@ double track_amount(const Track& track, double time) {
   if (time >= track.end) return track.edit.amount;
   if (time <= track.begin) return 0;
   return track.edit.amount * eased(track.ease, (time - track.begin) / (track.end - track.begin));
+}
+
+TransitionState uniform_transition(const Shares& shares, Eigen::Index vertex_count) {
+  return Eigen::Map<const Eigen::VectorXd>(shares.data(), static_cast<Eigen::Index>(shares.size()))
+      .replicate(1, vertex_count);
 }
 
 TransitionState apply_edit(const TransitionState& T, const Edit& edit, double amount,

@@ -17,6 +17,9 @@ double eased(Ease ease, double share);
 /// Amount of a track at `time`, in [0, track.edit.amount].
 double track_amount(const Track& track, double time);
 
+/// T with the same shares at every vertex.
+TransitionState uniform_transition(const Shares& shares, Eigen::Index vertex_count);
+
 /// T with an edit applied: (1 - a (1 - d)) T + a (1 - d) T~.
 ///
 /// @param regions  d of every region, as region_distances

@@ -1,40 +1,60 @@
-// K_L x = b with the `edge` right-hand side and the translation gauge (design.md, section 5).
+// What a bake solves (docs/method.md): K_L x = b with the `edge` right-hand side and a translation gauge, or, around
+// held vertices, least squares in displacements from the start.
+
+import { diagonal } from './vectors.mjs';
 
 const TOLERANCE = 1e-12;
 
 /**
- * The vertices that fix the translation of each component: what never changes if that is 5 % of
- * the component's area, else all of it.
+ * What stands still. A component of which no edit ever touches 5 % of the area holds that part; the others keep the
+ * centroid of what is untouched if it is 5 %, else of all of it.
  *
- * @return true a vertex that belongs to its component's reference set
+ * @param untouched  true a vertex
+ * @param hold       the recipe's "hold": "auto", "none" or the names of regions
+ * @param fields     d of every region, by name
+ * @return           { held, reference }: booleans a vertex
  */
-export function chooseReference(mesh, unchanging) {
+export function chooseConstraints(mesh, untouched, hold, fields) {
   const { component, areas } = mesh;
   const count = Math.max(...component) + 1;
   const [total, still] = [new Float64Array(count), new Float64Array(count)];
   component.forEach((c, i) => {
     total[c] += areas[i];
-    if (unchanging[i]) still[c] += areas[i];
+    if (untouched[i]) still[c] += areas[i];
   });
-  return unchanging.map((stays, i) => stays || still[component[i]] < 0.05 * total[component[i]]);
+  const isLocal = (i) => still[component[i]] >= 0.05 * total[component[i]];
+  const reference = untouched.map((stays, i) => stays || !isLocal(i));
+  const isHeld = {
+    auto: (i) => untouched[i] && isLocal(i),
+    none: () => false,
+  }[hold] ?? ((i) => hold.some((name) => fields[name][i] <= 1e-12));
+  const held = untouched.map((_, i) => isHeld(i));
+  const holds = new Array(count).fill(false);
+  held.forEach((is, i) => { if (is) holds[component[i]] = true; });
+  return { held, reference, inHolding: untouched.map((_, i) => holds[component[i]]) };
 }
 
 /**
  * Solves one frame.
  *
  * @param T      shares, one array a source
+ * @param rest   the mix that edits start from: one share a source
  * @param start  #V by 3 values to start from, or null
  * @return       #V by 3, scene space
  */
-export function solveFrame(mesh, reference, T, start) {
-  const blend = blendPositions(mesh, T);
-  const x = Float64Array.from(start ?? blend);
-  const b = edgeDifferences(mesh, T);
+export function solveFrame(mesh, constraints, T, rest, start) {
+  const home = blendPositions(mesh, T.map((row, s) => row.map(() => rest[s])));
+  const change = T.map((row, s) => row.map((share) => share - rest[s]));
+  const blend = blendPositions(mesh, change);
+  const b = edgeDifferences(mesh, change);
+  const u = start ? start.map((value, k) => value - home[k]) : Float64Array.from(blend);
   for (let axis = 0; axis < 3; axis++) {
-    const solved = conjugateGradient(mesh, everyThird(b, axis), everyThird(x, axis));
-    solved.forEach((value, i) => { x[3 * i + axis] = value; });
+    const [goal, still] = [everyThird(b, axis), everyThird(blend, axis)];
+    const solved = leastSquares(mesh, constraints, goal, still, conjugateGradient(mesh, constraints, goal, everyThird(u, axis)));
+    solved.forEach((value, i) => { u[3 * i + axis] = value; });
   }
-  return translate(mesh, reference, x, blend);
+  const moved = translate(mesh, constraints, u, blend);
+  return moved.map((value, k) => value + home[k]);
 }
 
 const everyThird = (values, axis) => Float64Array.from({ length: values.length / 3 }, (_, i) => values[3 * i + axis]);
@@ -65,10 +85,13 @@ function applyLaplacian({ neighbours }, x) {
 
 const dotProduct = (a, b) => a.reduce((sum, value, i) => sum + value * b[i], 0);
 
-/** All components at once: the matrix is block-diagonal and b sums to 0 in each block. */
-function conjugateGradient(mesh, b, x) {
+/** All components that hold nothing at once: the matrix is block-diagonal and b sums to 0 in each block. */
+function conjugateGradient(mesh, { inHolding }, b, x) {
+  b = b.map((value, i) => (inHolding[i] ? 0 : value));
+  x = x.map((value, i) => (inHolding[i] ? 0 : value));
   const degrees = mesh.neighbours.map((ring) => ring.length || 1);
-  const goal = TOLERANCE * Math.sqrt(dotProduct(b, b));
+  // A morph that comes home leaves a b of rounding alone.
+  const goal = TOLERANCE * Math.max(Math.sqrt(dotProduct(b, b)), 0.01 * diagonal(mesh.geometries[0]));
   let r = applyLaplacian(mesh, x).map((value, i) => b[i] - value);
   let z = r.map((value, i) => value / degrees[i]);
   let p = z;
@@ -87,18 +110,51 @@ function conjugateGradient(mesh, b, x) {
   return x;
 }
 
-/** Moves each component so that sum_R a_i x_i = sum_R a_i (sum_s T_s,i v_s,i). */
-function translate({ component, areas }, reference, x, blend) {
+/**
+ * Minimises |L u - Deg^-1 b|^2 over the free vertices of components that hold some, with the others at `still`:
+ * conjugate gradients on the least squares themselves (CGLS), the matrix scaled by nothing.
+ */
+function leastSquares(mesh, { held, inHolding }, b, still, x) {
+  const { neighbours } = mesh;
+  const isFree = held.map((is, i) => inHolding[i] && !is);
+  if (!isFree.some(Boolean)) return x.map((value, i) => (held[i] ? still[i] : value));
+  const L = (u) => u.map((value, i) => (inHolding[i] ? value - neighbours[i].reduce((sum, j) => sum + u[j], 0) / neighbours[i].length : 0));
+  const transposed = (e) => e.map((value, i) =>
+    (isFree[i] ? value - neighbours[i].reduce((sum, j) => sum + e[j] / neighbours[j].length, 0) : 0));
+  let u = x.map((value, i) => (held[i] ? still[i] : inHolding[i] ? still[i] : 0));
+  let e = L(u).map((value, i) => (inHolding[i] ? b[i] / neighbours[i].length - value : 0));
+  let g = transposed(e);
+  let p = g;
+  let gg = dotProduct(g, g);
+  const zero = L(u.map((value, i) => (held[i] ? value : 0))).map((value, i) => (inHolding[i] ? b[i] / neighbours[i].length - value : 0));
+  const size = Math.sqrt(dotProduct(transposed(zero), transposed(zero)));
+  const goal = (TOLERANCE * Math.max(size, 0.01 * diagonal(mesh.geometries[0]))) ** 2;
+  for (let iteration = 0; gg > goal; iteration++) {
+    if (iteration > 20 * b.length) throw new Error('the reference solver does not converge');
+    const q = L(p);
+    const step = gg / dotProduct(q, q);
+    u = u.map((value, i) => value + step * p[i]);
+    e = e.map((value, i) => value - step * q[i]);
+    g = transposed(e);
+    const before = gg;
+    gg = dotProduct(g, g);
+    p = p.map((value, i) => g[i] + (gg / before) * value);
+  }
+  return x.map((value, i) => (inHolding[i] ? u[i] : value));
+}
+
+/** Moves each component that holds nothing so that sum_R a_i u_i = sum_R a_i (sum_s dT_s,i v_s,i). */
+function translate({ component, areas }, { reference, inHolding }, u, blend) {
   const count = Math.max(...component) + 1;
   const weight = new Float64Array(count);
   const offset = new Float64Array(3 * count);
   component.forEach((c, i) => {
     if (!reference[i]) return;
     weight[c] += areas[i];
-    for (let k = 0; k < 3; k++) offset[3 * c + k] += areas[i] * (blend[3 * i + k] - x[3 * i + k]);
+    for (let k = 0; k < 3; k++) offset[3 * c + k] += areas[i] * (blend[3 * i + k] - u[3 * i + k]);
   });
-  return x.map((value, k) => {
-    const c = component[Math.floor(k / 3)];
-    return value + offset[3 * c + (k % 3)] / weight[c];
+  return u.map((value, k) => {
+    const i = Math.floor(k / 3);
+    return inHolding[i] ? value : value + offset[3 * component[i] + (k % 3)] / weight[component[i]];
   });
 }

@@ -35,11 +35,12 @@ export function readTimeline(recipe, sourceNames, fields, vertexCount) {
   const readState = (name) => states[name] ?? { mix: readShares(name, sourceNames), edits: [] };
   const keys = (written.keys ?? []).map((key) =>
     ({ time: key.time, T: evaluateState(readState(key.state), vertexCount), ease: EASES[key.ease ?? 'linear'] }));
+  const start = readShares(written.start ?? sourceNames[0], sourceNames);
   const lastEvent = Math.max(0, ...tracks.map((track) => track.end), ...keys.map((key) => key.time));
   return { tracks, keys, vertexCount, fps: written.fps ?? 30,
-    start: readShares(written.start ?? sourceNames[0], sourceNames),
+    start, rest: keys.length ? readState(written.keys[0].state).mix : start,
     duration: Math.max(lastEvent, written.duration ?? 0),
-    stateNamed: (name) => evaluateState(readState(name), vertexCount) };
+    stateNamed: (name) => ({ T: evaluateState(readState(name), vertexCount), rest: readState(name).mix }) };
 }
 
 /** A track without a name is called after its region, or its source. */
@@ -102,16 +103,20 @@ function betweenKeys(keys, t) {
   return from.T.map((row, s) => row.map((share, i) => (1 - u) * share + u * to.T[s][i]));
 }
 
-/** Which vertices keep their T(0) over the whole timeline. */
-export function findUnchanging(timeline) {
-  const unchanging = new Array(timeline.vertexCount).fill(true);
-  const first = transitionAt(timeline, 0);
-  for (const t of eventTimes(timeline))
-    transitionAt(timeline, t).forEach((row, s) => {
+/** Which vertices keep the shares of the start's mix over the whole timeline. */
+export function findUntouched(timeline) {
+  return untouchedIn(timeline, timeline.rest, eventTimes(timeline).map((t) => transitionAt(timeline, t)));
+}
+
+/** Which vertices have the shares `rest` in all of `states`. */
+export function untouchedIn({ vertexCount }, rest, states) {
+  const untouched = new Array(vertexCount).fill(true);
+  for (const T of states)
+    T.forEach((row, s) => {
       // Mixing a share with itself may change its last bit.
-      row.forEach((share, i) => { if (Math.abs(share - first[s][i]) > 1e-12) unchanging[i] = false; });
+      row.forEach((share, i) => { if (Math.abs(share - rest[s]) > 1e-12) untouched[i] = false; });
     });
-  return unchanging;
+  return untouched;
 }
 
 /** Between two events each ease is monotone, so their times and middles show every change. */

@@ -63,7 +63,7 @@ TEST(Options, AllProblemsAreReported) {
       {"recipe.json#/options/basis/easing_tolerance: error: easing_tolerance must be a number from "
        "1e-12 to 0.1 (fraction of the bounding-box diagonal), not 1 [options.out-of-range]",
        "--set: error: there is no option \"/turntable/sampels\" [options.unknown-field]\n"
-       "  hint: did you mean \"/turntable/samples\"? options are: /basis/easing_tolerance, ",
+       "  hint: did you mean \"/turntable/samples\"? options are: /solve/solver, ",
        "--set#/turntable/samples: error: samples must be a whole number from 1 to 1024 (rays), not "
        "\"many\" [options.wrong-type]",
        "--set: error: \"nothing\" sets nothing [options.bad-setting]\n"

@@ -1,0 +1,21 @@
+#include "morphbake/linear/symmetric_system.h"
+
+namespace morphbake {
+
+void remove_block_means(const SymmetricSystem& system, Eigen::MatrixXd& columns) {
+  if (system.singular_block_count == 0) return;
+  Eigen::MatrixXd sums = Eigen::MatrixXd::Zero(system.singular_block_count, columns.cols());
+  Eigen::VectorXd counts = Eigen::VectorXd::Zero(system.singular_block_count);
+  for (Eigen::Index row = 0; row < columns.rows(); ++row) {
+    const int block = system.singular_block[static_cast<std::size_t>(row)];
+    if (block < 0) continue;
+    sums.row(block) += columns.row(row);
+    counts(block) += 1;
+  }
+  for (Eigen::Index row = 0; row < columns.rows(); ++row) {
+    const int block = system.singular_block[static_cast<std::size_t>(row)];
+    if (block >= 0) columns.row(row) -= sums.row(block) / counts(block);
+  }
+}
+
+}  // namespace morphbake

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <Eigen/SparseCore>
+#include <vector>
+
+namespace morphbake {
+
+/// A symmetric positive semi-definite matrix that sees everything but the constants on some blocks.
+///
+/// K_L of a component that nothing holds is such a block; a held component's matrix is definite.
+struct SymmetricSystem {
+  Eigen::SparseMatrix<double> matrix;  ///< #X by #X, both triangles
+  std::vector<int> singular_block;     ///< #X: which block whose constants it maps to 0, or -1
+  int singular_block_count = 0;
+};
+
+/// Takes the mean of each column over each singular block away: what is left is in the matrix's
+/// range.
+void remove_block_means(const SymmetricSystem& system, Eigen::MatrixXd& columns);
+
+/// How an iteration ended.
+struct Convergence {
+  int iterations = 0;
+  double residual = 0;  ///< |A X - B| / |B|, Frobenius norms; |A X - B| where B is 0
+  double error = 0;     ///< estimate of the largest distance of a row of X from the solution
+  bool reached = false;
+};
+
+}  // namespace morphbake

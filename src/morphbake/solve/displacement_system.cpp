@@ -1,0 +1,274 @@
+#include "morphbake/solve/displacement_system.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "morphbake/diagnostics/problem.h"
+#include "morphbake/differential/laplacian.h"
+#include "morphbake/mesh/measures.h"
+
+namespace morphbake {
+namespace {
+
+using ExtendedRow = Eigen::Matrix<long double, 1, 3>;
+
+/// Calls `visit(j)` for the neighbours j of vertex i.
+template <typename Visit>
+void for_each_neighbour(const OneRings& rings, Eigen::Index i, const Visit& visit) {
+  const auto v = static_cast<std::size_t>(i);
+  for (int n = rings.offsets[v]; n < rings.offsets[v + 1]; ++n) {
+    visit(static_cast<Eigen::Index>(rings.neighbours[static_cast<std::size_t>(n)]));
+  }
+}
+
+/// sum_s T_s V_s, vertex by vertex: what linear interpolation of positions would give.
+Positions blend_positions(const std::vector<Positions>& geometries, const Eigen::MatrixXd& shares) {
+  Positions blended = Positions::Zero(shares.cols(), 3);
+  for (std::size_t s = 0; s < geometries.size(); ++s) {
+    const Eigen::VectorXd share = shares.row(static_cast<Eigen::Index>(s));
+    if (!share.isZero(0)) blended += share.asDiagonal() * geometries[s];
+  }
+  return blended;
+}
+
+/// Means of each component's vertices: #components by 3.
+Positions component_centres(const Components& components, const Positions& positions) {
+  Positions sums = Positions::Zero(components.count, 3);
+  Eigen::VectorXd counts = Eigen::VectorXd::Zero(components.count);
+  for (Eigen::Index v = 0; v < positions.rows(); ++v) {
+    const int component = components.label[static_cast<std::size_t>(v)];
+    sums.row(component) += positions.row(v);
+    counts(component) += 1;
+  }
+  return counts.cwiseInverse().asDiagonal() * sums;
+}
+
+std::vector<bool> uniform_components(const Components& components, const Eigen::MatrixXd& shares) {
+  std::vector<bool> uniform(static_cast<std::size_t>(components.count), true);
+  std::vector<Eigen::Index> first(static_cast<std::size_t>(components.count), -1);
+  for (Eigen::Index v = 0; v < shares.cols(); ++v) {
+    const auto component = static_cast<std::size_t>(components.label[static_cast<std::size_t>(v)]);
+    if (first[component] < 0) first[component] = v;
+    if (shares.col(v) != shares.col(first[component])) uniform[component] = false;
+  }
+  return uniform;
+}
+
+/// g_i = sum_s sum_j |T_s,i - T_s,j|: how much the shares vary around each vertex.
+Eigen::VectorXd share_variation(const OneRings& rings, const Eigen::MatrixXd& shares) {
+  Eigen::VectorXd variation = Eigen::VectorXd::Zero(shares.cols());
+  for (Eigen::Index i = 0; i < shares.cols(); ++i) {
+    for_each_neighbour(rings, i, [&](Eigen::Index j) {
+      variation(i) += (shares.col(i) - shares.col(j)).cwiseAbs().sum();
+    });
+  }
+  return variation;
+}
+
+}  // namespace
+
+bool Goal::is_blend() const {
+  return std::find(uniform.begin(), uniform.end(), false) == uniform.end();
+}
+
+DisplacementSystem::DisplacementSystem(const MorphableMesh& mesh, Constraints constraints,
+                                       RightHandSide rule)
+    : mesh_(mesh),
+      rings_(one_rings(mesh.connectivity)),
+      components_(connected_components(rings_)),
+      constraints_(std::move(constraints)),
+      rule_(rule),
+      diagonal_(bounding_diagonal(mesh.geometries.front())) {
+  for (const Positions& geometry : mesh.geometries) {
+    centres_.push_back(component_centres(components_, geometry));
+  }
+  number_unknowns();
+  assemble();
+}
+
+void DisplacementSystem::number_unknowns() {
+  component_holds_.assign(static_cast<std::size_t>(components_.count), false);
+  for (std::size_t v = 0; v < constraints_.held.size(); ++v) {
+    const bool is_held = constraints_.held[v];
+    unknown_of_vertex_.push_back(is_held ? -1 : static_cast<int>(vertex_of_unknown_.size()));
+    if (is_held) {
+      ++held_count_;
+      component_holds_[static_cast<std::size_t>(components_.label[v])] = true;
+    } else {
+      vertex_of_unknown_.push_back(static_cast<int>(v));
+    }
+  }
+}
+
+/// K_L for components that hold nothing, L_F^T L_F for the others, where L_F are the columns of L
+/// that belong to free vertices.
+void DisplacementSystem::assemble() {
+  std::vector<Eigen::Triplet<double>> harmonic, columns;
+  const auto holds = [&](Eigen::Index v) {
+    return component_holds_[static_cast<std::size_t>(
+        components_.label[static_cast<std::size_t>(v)])];
+  };
+  const auto unknown = [&](Eigen::Index v) {
+    return unknown_of_vertex_[static_cast<std::size_t>(v)];
+  };
+  const int vertex_count = mesh_.connectivity.vertex_count;
+  for (int i = 0; i < vertex_count; ++i) {
+    const double degree = rings_.degree(i);
+    if (holds(i)) {
+      if (unknown(i) >= 0) columns.emplace_back(i, unknown(i), 1.0);
+      for_each_neighbour(rings_, i, [&](Eigen::Index j) {
+        if (unknown(j) >= 0) columns.emplace_back(i, unknown(j), -1 / degree);
+      });
+    } else {
+      harmonic.emplace_back(unknown(i), unknown(i), degree);
+      for_each_neighbour(
+          rings_, i, [&](Eigen::Index j) { harmonic.emplace_back(unknown(i), unknown(j), -1.0); });
+    }
+  }
+  const auto unknown_count = static_cast<Eigen::Index>(vertex_of_unknown_.size());
+  equations_.matrix.resize(unknown_count, unknown_count);
+  equations_.matrix.setFromTriplets(harmonic.begin(), harmonic.end());
+  if (!columns.empty()) {
+    Eigen::SparseMatrix<double> L_F(vertex_count, unknown_count);
+    L_F.setFromTriplets(columns.begin(), columns.end());
+    const Eigen::SparseMatrix<double> L_F_transposed = L_F.transpose();
+    const Eigen::SparseMatrix<double> squared = L_F_transposed * L_F;
+    equations_.matrix = equations_.matrix + squared;
+  }
+  std::vector<int> block_of_component(static_cast<std::size_t>(components_.count), -1);
+  for (const int vertex : vertex_of_unknown_) {
+    const auto component =
+        static_cast<std::size_t>(components_.label[static_cast<std::size_t>(vertex)]);
+    if (!component_holds_[component] && block_of_component[component] < 0) {
+      block_of_component[component] = equations_.singular_block_count++;
+    }
+    equations_.singular_block.push_back(block_of_component[component]);
+  }
+}
+
+/// Makes K_L u = b solvable: b must sum to 0 over each component that holds nothing.
+///
+/// `edge` does by itself. For `vertex` the imbalance is spread where the shares vary, or, with an
+/// anchor, thrown into its equation, as section 4.3 of the paper does by dropping it.
+void DisplacementSystem::balance(const Eigen::MatrixXd& change, Goal& goal) const {
+  Positions sums = Positions::Zero(components_.count, 3);
+  const Eigen::VectorXd variation = share_variation(rings_, change);
+  Eigen::VectorXd variations = Eigen::VectorXd::Zero(components_.count);
+  for (Eigen::Index v = 0; v < variation.size(); ++v) {
+    const int component = components_.label[static_cast<std::size_t>(v)];
+    sums.row(component) += goal.differences.row(v);
+    variations(component) += variation(v);
+  }
+  for (Eigen::Index v = 0; v < variation.size(); ++v) {
+    const int component = components_.label[static_cast<std::size_t>(v)];
+    const auto c = static_cast<std::size_t>(component);
+    if (component_holds_[c] || !(variations(component) > 0)) continue;
+    if (constraints_.anchor[c] < 0) {
+      goal.differences.row(v) -= variation(v) / variations(component) * sums.row(component);
+    } else if (constraints_.anchor[c] == v) {
+      goal.differences.row(v) -= sums.row(component);
+      goal.imbalance.row(component) = sums.row(component);
+    }
+  }
+}
+
+Goal DisplacementSystem::goal(const Eigen::MatrixXd& change) const {
+  Goal goal;
+  goal.blend = blend_positions(mesh_.geometries, change);
+  goal.uniform = uniform_components(components_, change);
+  goal.imbalance = Positions::Zero(components_.count, 3);
+  if (!goal.blend.allFinite()) {
+    throw BakeError(Problem{Severity::Error,
+                            "solve.not-finite",
+                            {},
+                            "the blended positions are not finite numbers",
+                            "the sources' coordinates are too large for double precision"});
+  }
+  goal.start = goal.blend;
+  if (goal.is_blend()) return goal;
+  for (Eigen::Index v = 0; v < goal.start.rows(); ++v) {
+    const int component = components_.label[static_cast<std::size_t>(v)];
+    for (std::size_t s = 0; s < centres_.size(); ++s) {
+      goal.start.row(v) -= change(static_cast<Eigen::Index>(s), v) * centres_[s].row(component);
+    }
+  }
+  if (rule_ == RightHandSide::Edge) {
+    goal.differences = blend_edge_differences(rings_, mesh_.geometries, change);
+  } else {
+    goal.differences = blend_vertex_differences(rings_, mesh_.geometries, change);
+    balance(change, goal);
+  }
+  return goal;
+}
+
+Eigen::MatrixXd DisplacementSystem::rest() const {
+  const Positions& V = mesh_.geometries.front();
+  const Eigen::RowVector3d centre = (V.colwise().minCoeff() + V.colwise().maxCoeff()) / 2;
+  return (V.rowwise() - centre)(vertex_of_unknown_, Eigen::all);
+}
+
+Eigen::MatrixXd DisplacementSystem::start(const Goal& goal) const {
+  return goal.start(vertex_of_unknown_, Eigen::all);
+}
+
+Eigen::MatrixXd DisplacementSystem::residual(const Goal& goal, const Eigen::MatrixXd& x) const {
+  Positions u = goal.blend;  // held vertices stay there
+  for (std::size_t k = 0; k < vertex_of_unknown_.size(); ++k) {
+    u.row(vertex_of_unknown_[k]) = x.row(static_cast<Eigen::Index>(k));
+  }
+  // e = b - K_L u. Extended precision where L^T is still to be applied to it.
+  Eigen::Matrix<long double, Eigen::Dynamic, 3, Eigen::RowMajor> misfit;
+  if (holds()) misfit.setZero(u.rows(), 3);
+  Eigen::MatrixXd residual(x.rows(), 3);
+  for (Eigen::Index i = 0; i < u.rows(); ++i) {
+    const auto vertex = static_cast<std::size_t>(i);
+    if (component_holds_[static_cast<std::size_t>(components_.label[vertex])]) {
+      ExtendedRow e = goal.differences.row(i).cast<long double>();
+      const ExtendedRow own = u.row(i).cast<long double>();
+      for_each_neighbour(rings_, i,
+                         [&](Eigen::Index j) { e -= own - u.row(j).cast<long double>(); });
+      misfit.row(i) = e / static_cast<long double>(rings_.degree(static_cast<int>(i)));
+    } else {
+      Eigen::RowVector3d e = goal.differences.row(i);
+      for_each_neighbour(rings_, i, [&](Eigen::Index j) { e -= u.row(i) - u.row(j); });
+      residual.row(unknown_of_vertex_[vertex]) = e;
+    }
+  }
+  if (!holds()) return residual;
+  for (std::size_t k = 0; k < vertex_of_unknown_.size(); ++k) {
+    const Eigen::Index i = vertex_of_unknown_[k];
+    const auto component = static_cast<std::size_t>(components_.label[static_cast<std::size_t>(i)]);
+    if (!component_holds_[component]) continue;
+    ExtendedRow sum = misfit.row(i);  // column i of L: 1 at i, -1 / deg_j at its neighbours j
+    for_each_neighbour(rings_, i, [&](Eigen::Index j) {
+      sum -= misfit.row(j) / static_cast<long double>(rings_.degree(static_cast<int>(j)));
+    });
+    residual.row(static_cast<Eigen::Index>(k)) = sum.cast<double>();
+  }
+  return residual;
+}
+
+Positions DisplacementSystem::displacement(const Goal& goal, const Eigen::MatrixXd& x) const {
+  Positions u = goal.blend;
+  Positions offsets = Positions::Zero(components_.count, 3);
+  const auto is_solved = [&](Eigen::Index v) {
+    const auto vertex = static_cast<std::size_t>(v);
+    return unknown_of_vertex_[vertex] >= 0 &&
+           !goal.uniform[static_cast<std::size_t>(components_.label[vertex])];
+  };
+  for (Eigen::Index v = 0; v < u.rows(); ++v) {
+    if (!is_solved(v)) continue;
+    u.row(v) = x.row(unknown_of_vertex_[static_cast<std::size_t>(v)]);
+    const int component = components_.label[static_cast<std::size_t>(v)];
+    offsets.row(component) += constraints_.gauge(v) * (goal.blend.row(v) - u.row(v));
+  }
+  for (Eigen::Index v = 0; v < u.rows(); ++v) {
+    const int component = components_.label[static_cast<std::size_t>(v)];
+    if (is_solved(v) && !component_holds_[static_cast<std::size_t>(component)]) {
+      u.row(v) += offsets.row(component);
+    }
+  }
+  return u;
+}
+
+}  // namespace morphbake

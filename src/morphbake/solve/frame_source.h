@@ -1,0 +1,33 @@
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "morphbake/solve/solve_frames.h"
+
+namespace morphbake {
+
+/// The frames of a timeline, pulled one by one as often as needed: whoever reads them holds what it
+/// needs, and memory does not grow with their number.
+struct FrameSource {
+  std::vector<double> times;                              ///< seconds, rising
+  std::function<Positions(std::size_t frame)> positions;  ///< #V by 3, scene space
+};
+
+/// Frames combined from solved shapes, each time anew.
+///
+/// @param shapes, separable, timeline  must outlive the source
+FrameSource combined_frames(const SolvedShapes& shapes, const SeparableTimeline& separable,
+                            const Timeline& timeline);
+
+/// Frames that were solved one by one, kept in a scratch file that vanishes with the source.
+///
+/// @param reference  #V by 3: what displacements start from
+/// @param records    gets one a frame that needed a solve
+/// @throws BakeError "output.unwritable" when there is no room for the scratch file
+FrameSource solved_frames(const SurfaceSolver& solver, const Positions& reference,
+                          const std::vector<double>& times,
+                          const std::function<Eigen::MatrixXd(double)>& change_at,
+                          const Observer& observer, std::vector<SolveRecord>& records);
+
+}  // namespace morphbake

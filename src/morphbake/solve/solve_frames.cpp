@@ -1,0 +1,164 @@
+#include "morphbake/solve/solve_frames.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <optional>
+#include <utility>
+
+namespace morphbake {
+namespace {
+
+constexpr std::size_t kFramesPerSolve = 16;  // columns of one pass over the factor: 48
+constexpr double kChunkBytes = 256e6;
+constexpr double kBytesPerVertexAndFrame = 150;  // goal, unknowns, residual, correction
+
+std::size_t chunk_length(const DisplacementSystem& system) {
+  const auto vertices = static_cast<double>(system.components().label.size());
+  const double frames = kChunkBytes / (kBytesPerVertexAndFrame * std::max(1.0, vertices));
+  return static_cast<std::size_t>(std::clamp(frames, 4.0, 64.0));
+}
+
+/// A chunk of frames while it is solved.
+struct Chunk {
+  std::vector<Goal> goals;
+  std::vector<Eigen::MatrixXd> x;  ///< starts, then solutions
+  std::vector<Convergence> reached;
+};
+
+/// How far a frame's solution is from its blend.
+Eigen::MatrixXd deviation(const SurfaceSolver& solver, const Chunk& chunk, std::size_t frame) {
+  return chunk.x[frame] - solver.system().start(chunk.goals[frame]);
+}
+
+/// Solves frames that do not need one another, sixteen a pass, passes over threads.
+void solve_independent(const SurfaceSolver& solver, Chunk& chunk,
+                       std::vector<std::size_t> members) {
+  std::erase_if(members, [&](std::size_t i) {
+    const bool is_known = chunk.goals[i].is_blend();
+    if (is_known) chunk.x[i] = solver.system().start(chunk.goals[i]);
+    return is_known;
+  });
+  const std::size_t passes = (members.size() + kFramesPerSolve - 1) / kFramesPerSolve;
+  tbb::parallel_for(std::size_t{0}, passes, [&](std::size_t pass) {
+    const std::size_t begin = pass * kFramesPerSolve;
+    const std::size_t end = std::min(members.size(), begin + kFramesPerSolve);
+    std::vector<Goal> goals;
+    std::vector<Eigen::MatrixXd> x;
+    for (std::size_t i = begin; i < end; ++i) {
+      goals.push_back(std::move(chunk.goals[members[i]]));
+      x.push_back(std::move(chunk.x[members[i]]));
+    }
+    const std::vector<Convergence> reached = solver.solve(goals, x);
+    for (std::size_t i = begin; i < end; ++i) {
+      chunk.goals[members[i]] = std::move(goals[i - begin]);
+      chunk.x[members[i]] = std::move(x[i - begin]);
+      chunk.reached[members[i]] = reached[i - begin];
+    }
+  });
+}
+
+/// Middles of neighbours that are already solved, level by level; ends first.
+std::vector<std::vector<std::pair<std::size_t, std::size_t>>> middle_levels(std::size_t count) {
+  std::vector<std::vector<std::pair<std::size_t, std::size_t>>> levels;
+  std::vector<std::pair<std::size_t, std::size_t>> spans = {{0, count - 1}};
+  while (!spans.empty()) {
+    std::vector<std::pair<std::size_t, std::size_t>> split, next;
+    for (const auto& [begin, end] : spans) {
+      if (end - begin < 2) continue;
+      const std::size_t middle = (begin + end) / 2;
+      split.emplace_back(begin, end);
+      next.emplace_back(begin, middle);
+      next.emplace_back(middle, end);
+    }
+    if (!split.empty()) levels.push_back(split);
+    spans = std::move(next);
+  }
+  return levels;
+}
+
+void solve_hierarchically(const SurfaceSolver& solver, Chunk& chunk,
+                          const std::optional<Eigen::MatrixXd>& before) {
+  const std::size_t last = chunk.x.size() - 1;
+  if (before) chunk.x[0] += *before;
+  solve_independent(solver, chunk, {0});
+  if (last == 0) return;
+  chunk.x[last] += deviation(solver, chunk, 0);
+  solve_independent(solver, chunk, {last});
+  for (const auto& level : middle_levels(chunk.x.size())) {
+    std::vector<std::size_t> members;
+    for (const auto& [begin, end] : level) {
+      const std::size_t middle = (begin + end) / 2;
+      const double share = static_cast<double>(middle - begin) / static_cast<double>(end - begin);
+      chunk.x[middle] +=
+          (1 - share) * deviation(solver, chunk, begin) + share * deviation(solver, chunk, end);
+      members.push_back(middle);
+    }
+    solve_independent(solver, chunk, members);
+  }
+}
+
+/// @param last  deviations of the two frames before the chunk, the newest last
+void solve_in_order(const SurfaceSolver& solver, Chunk& chunk, std::vector<Eigen::MatrixXd> last) {
+  for (std::size_t i = 0; i < chunk.x.size(); ++i) {
+    const std::size_t known = last.size();
+    if (known == 1) chunk.x[i] += last[0];
+    if (known == 2) chunk.x[i] += 2 * last[1] - last[0];
+    solve_independent(solver, chunk, {i});
+    if (known == 2) last.erase(last.begin());
+    last.push_back(deviation(solver, chunk, i));
+  }
+}
+
+std::vector<Eigen::MatrixXd> last_two_deviations(const SurfaceSolver& solver, const Chunk& chunk) {
+  std::vector<Eigen::MatrixXd> last;
+  for (std::size_t i = chunk.x.size() - std::min<std::size_t>(2, chunk.x.size());
+       i < chunk.x.size(); ++i) {
+    last.push_back(deviation(solver, chunk, i));
+  }
+  return last;
+}
+
+void solve_chunk(const SurfaceSolver& solver, Chunk& chunk,
+                 const std::vector<Eigen::MatrixXd>& before) {
+  if (solver.is_iterative()) {
+    solve_in_order(solver, chunk, before);
+  } else if (solver.choice().solver == Solver::Warm) {
+    solve_hierarchically(solver, chunk,
+                         before.empty() ? std::nullopt : std::optional(before.back()));
+  } else {
+    std::vector<std::size_t> all(chunk.x.size());
+    for (std::size_t i = 0; i < all.size(); ++i) all[i] = i;
+    solve_independent(solver, chunk, all);
+  }
+}
+
+}  // namespace
+
+std::vector<SolveRecord> solve_frames(const SurfaceSolver& solver, const std::vector<double>& times,
+                                      const std::function<Eigen::MatrixXd(double)>& change_at,
+                                      const Observer& observer, const FrameConsumer& consumer) {
+  const DisplacementSystem& system = solver.system();
+  const std::size_t length = chunk_length(system);
+  std::vector<SolveRecord> records;
+  std::vector<Eigen::MatrixXd> before;
+  for (std::size_t first = 0; first < times.size(); first += length) {
+    advance(observer, {"solve", static_cast<int>(first), static_cast<int>(times.size())});
+    Chunk chunk;
+    for (std::size_t f = first; f < std::min(times.size(), first + length); ++f) {
+      chunk.goals.push_back(system.goal(change_at(times[f])));
+      chunk.x.push_back(system.start(chunk.goals.back()));
+    }
+    chunk.reached.resize(chunk.x.size());
+    solve_chunk(solver, chunk, before);
+    for (std::size_t i = 0; i < chunk.x.size(); ++i) {
+      consumer(static_cast<int>(first + i), system.displacement(chunk.goals[i], chunk.x[i]));
+      if (chunk.goals[i].is_blend()) continue;
+      records.push_back({"", times[first + i], chunk.reached[i]});
+    }
+    before = last_two_deviations(solver, chunk);
+  }
+  return records;
+}
+
+}  // namespace morphbake

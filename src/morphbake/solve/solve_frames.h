@@ -1,0 +1,28 @@
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "morphbake/solve/solve_fields.h"
+
+namespace morphbake {
+
+/// Takes frames in the order of time.
+using FrameConsumer = std::function<void(int frame, const Positions& displacement)>;
+
+/// Solves every frame of a timeline, each from a start close by, and hands them on chunk by chunk:
+/// memory does not grow with their number.
+///
+/// What is carried from frame to frame is how far solutions are from the blend of the sources,
+/// which changes slower than they do. `warm` takes a chunk's ends first, then middles of what is
+/// solved, each from the mean of its two neighbours; all middles of one level are independent.
+/// `direct` starts from the blend alone. Iterations go through time, each frame from the line
+/// through the last two. The order depends on the times and the number of vertices, never on
+/// threads.
+/// @param change_at  dT at a time: #sources by #V, columns sum to 0
+/// @return           one record a frame that needed a solve
+std::vector<SolveRecord> solve_frames(const SurfaceSolver& solver, const std::vector<double>& times,
+                                      const std::function<Eigen::MatrixXd(double)>& change_at,
+                                      const Observer& observer, const FrameConsumer& consumer);
+
+}  // namespace morphbake

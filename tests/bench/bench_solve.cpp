@@ -1,0 +1,232 @@
+// Solvers on a torus and a bent copy between which a soft plane sweeps: 4 s at 30 frames a second,
+// of which frames 40 to 55 are solved. One thread, as the factor's solve is.
+
+#include <fmt/core.h>
+#include <tbb/global_control.h>
+
+#include <cmath>
+#include <numeric>
+
+#include "bench/timing.h"
+#include "morphbake/linear/cholesky_factor.h"
+#include "morphbake/solve/solve_frames.h"
+#include "shapes/shapes.h"
+
+namespace morphbake::bench {
+namespace {
+
+constexpr int kFrames = 16;
+constexpr int kRepeats = 5;
+constexpr int kSweepsMeasured = 200;
+constexpr int kRelaxedVertices = 20000;  // above, sweeps are extrapolated
+
+struct Scene {
+  MorphableMesh mesh;
+  std::vector<double> times;
+
+  explicit Scene(int vertices) {
+    const int side = static_cast<int>(std::sqrt(vertices / 2.0));
+    const Mesh torus = test::torus(2 * side, side);
+    mesh = test::morphable(torus.triangles, {torus.positions, test::bent(torus.positions, 0.2, 1)});
+    for (int f = 40; f < 40 + kFrames; ++f) times.push_back(f / 120.0);
+  }
+
+  Eigen::MatrixXd change_at(double time) const {
+    const Positions& V = mesh.geometries[0];
+    Eigen::MatrixXd change(2, V.rows());
+    for (Eigen::Index v = 0; v < V.rows(); ++v) {
+      const double u = std::clamp((3.9 * time - 1.4 - V(v, 0)) / 1.1, 0.0, 1.0);
+      const double share = u * u * (3 - 2 * u);
+      change.col(v) << -share, share;
+    }
+    return change;
+  }
+
+  DisplacementSystem system(HoldRule rule) const {
+    const SeparableTimeline middle{{}, {{"", change_at(0.5), {}}}};
+    return {mesh,
+            choose_constraints(mesh, connected_components(one_rings(mesh.connectivity)),
+                               untouched_vertices(middle), {rule, {}, {}, -1}),
+            RightHandSide::Edge};
+  }
+};
+
+SolveOptions options_of(Solver solver, double tolerance) {
+  SolveOptions options;
+  options.solver = solver;
+  options.tolerance = tolerance;
+  options.max_iterations = 10000000;
+  return options;
+}
+
+const Observer nobody;
+
+/// Iterations a frame, in order and from nothing.
+struct Counts {
+  double warm = 0;
+  double cold = 0;
+};
+
+Counts count_iterations(const Scene& scene, const SurfaceSolver& solver) {
+  Counts counts;
+  const auto change_at = [&](double time) { return scene.change_at(time); };
+  // The first two frames have no neighbours yet.
+  const std::vector<SolveRecord> records =
+      solve_frames(solver, scene.times, change_at, nobody, [](int, const Positions&) {});
+  for (std::size_t f = 2; f < records.size(); ++f) {
+    counts.warm += records[f].convergence.iterations / (kFrames - 2.0);
+  }
+  const Goal goal = solver.system().goal(scene.change_at(scene.times[8]));
+  std::vector<Eigen::MatrixXd> x = {0 * solver.system().start(goal)};
+  counts.cold = solver.solve({goal}, x)[0].iterations;
+  return counts;
+}
+
+double seconds_a_sweep(const DisplacementSystem& system, Solver solver, const Eigen::MatrixXd& b) {
+  StopRule stop;
+  stop.max_iterations = kSweepsMeasured;
+  Eigen::MatrixXd x = Eigen::MatrixXd::Zero(b.rows(), 3);
+  const double seconds = median_seconds(3, [&] {
+    if (solver == Solver::Jacobi)
+      iterate_jacobi(system.equations(), b, stop, x);
+    else
+      iterate_gauss_seidel(system.equations(), b, stop, x);
+  });
+  return seconds / kSweepsMeasured;
+}
+
+/// What relaxation costs: counted at the largest size that it is run at, then in proportion to the
+/// number of vertices, as the smallest eigenvalue shrinks.
+double bench_relaxation(const std::string& group, const Scene& scene,
+                        const DisplacementSystem& system, Solver solver, Figures& figures) {
+  const int vertices = scene.mesh.connectivity.vertex_count;
+  const Goal goal = system.goal(scene.change_at(scene.times[8]));
+  const Eigen::MatrixXd b = system.residual(goal, Eigen::MatrixXd::Zero(vertices, 3));
+  const double sweep = seconds_a_sweep(system, solver, b);
+  const bool extrapolates = vertices > kRelaxedVertices;
+  const Scene counted(extrapolates ? 10000 : vertices);
+  const DisplacementSystem counted_system = counted.system(HoldRule::Nothing);
+  const Counts counts =
+      count_iterations(counted, SurfaceSolver(counted_system, options_of(solver, 1e-6), nobody));
+  const double factor = extrapolates ? 1.0 * vertices / counted.mesh.connectivity.vertex_count : 1;
+  const std::string note =
+      extrapolates ? "extrapolated: sweeps of 10k vertices times the size, measured time a sweep"
+                   : "measured";
+  const double milliseconds = counts.warm * factor * sweep * 1e3;
+  figures.push_back({group, name_of(solver) + ", warm, to 1e-6", milliseconds, "ms/frame", note});
+  figures.push_back({group, name_of(solver) + ", warm sweeps", counts.warm * factor, "", note});
+  figures.push_back({group, name_of(solver) + ", cold sweeps", counts.cold * factor, "", note});
+  return milliseconds;
+}
+
+void bench_pcg(const std::string& group, const Scene& scene, const DisplacementSystem& system,
+               Figures& figures) {
+  const SurfaceSolver solver(system, options_of(Solver::ConjugateGradients, 1e-6), nobody);
+  const Counts counts = count_iterations(scene, solver);
+  const Goal goal = system.goal(scene.change_at(scene.times[8]));
+  int iterations = 0;
+  const double seconds = median_seconds(3, [&] {
+    std::vector<Eigen::MatrixXd> x = {0 * system.start(goal)};
+    iterations = solver.solve({goal}, x)[0].iterations;
+  });
+  figures.push_back({group, "pcg, warm, to 1e-6", seconds / iterations * counts.warm * 1e3,
+                     "ms/frame", "time a step, measured cold, times warm steps"});
+  figures.push_back({group, "pcg, warm steps", counts.warm, "", ""});
+  figures.push_back({group, "pcg, cold steps", counts.cold, "", ""});
+}
+
+double sum_twice(const std::vector<double>& numbers) {
+  double sum = 0;
+  for (int pass = 0; pass < 2; ++pass) {
+    double parts[8] = {};
+    for (std::size_t i = 0; i + 8 <= numbers.size(); i += 8) {
+      for (std::size_t k = 0; k < 8; ++k) parts[k] += numbers[i + k];
+    }
+    sum += std::accumulate(std::begin(parts), std::end(parts), 0.0);
+  }
+  return sum;
+}
+
+void bench_factor(const std::string& group, const Scene& scene, const DisplacementSystem& system,
+                  double gauss_seidel, Figures& figures) {
+  const int vertices = scene.mesh.connectivity.vertex_count;
+  const double setup = seconds_of([&] { CholeskyFactor unused(system.equations()); });
+  const CholeskyFactor factor(system.equations());
+  Eigen::MatrixXd sixteen(vertices, 3 * kFrames);
+  for (int f = 0; f < kFrames; ++f) {
+    const Goal goal = system.goal(scene.change_at(scene.times[static_cast<std::size_t>(f)]));
+    sixteen.middleCols(3 * f, 3) = system.residual(goal, Eigen::MatrixXd::Zero(vertices, 3));
+  }
+  const Eigen::MatrixXd one = sixteen.leftCols(3);
+  const Pair solves = time_pair(
+      kRepeats, [&] { factor.solve(sixteen); },
+      [&] {
+        for (int f = 0; f < kFrames; ++f) factor.solve(one);
+      });
+  const std::vector<double> numbers(factor.bytes() / sizeof(double), 1.0);
+  volatile double kept = 0;
+  const Pair streaming = time_pair(
+      kRepeats, [&] { kept = kept + sum_twice(numbers); }, [&] { factor.solve(sixteen); });
+  const double ms = solves.first / kFrames * 1e3;
+  figures.push_back({group, "factor, set-up", setup * 1e3, "ms", ""});
+  figures.push_back({group, "factor, bytes a vertex",
+                     1.0 * static_cast<double>(factor.bytes()) / vertices, "B", ""});
+  figures.push_back({group, "CHOLMOD, sixteen frames a solve", ms, "ms/frame", ""});
+  figures.push_back(
+      {group, "CHOLMOD, one frame a solve", solves.second / kFrames * 1e3, "ms/frame", ""});
+  figures.push_back({group, "one / sixteen", solves.ratio, "x", "pairs"});
+  figures.push_back({group, "streaming the factor twice", streaming.first * 1e3, "ms", ""});
+  figures.push_back(
+      {group, "sixteen, a frame / streaming twice", streaming.ratio / kFrames, "x", "pairs"});
+  figures.push_back({group, "warm Gauss-Seidel / sixteen", gauss_seidel / ms, "x", ""});
+}
+
+/// Whole frames: goal, residuals, corrections, displacements.
+void bench_frames(const std::string& group, const Scene& scene, const DisplacementSystem& system,
+                  double tolerance, Figures& figures) {
+  const SurfaceSolver direct(system, options_of(Solver::Direct, tolerance), nobody);
+  const SurfaceSolver warm(system, options_of(Solver::Warm, tolerance), nobody);
+  const auto change_at = [&](double time) { return scene.change_at(time); };
+  int corrections = 0;
+  const auto run = [&](const SurfaceSolver& solver) {
+    corrections = 0;
+    for (const SolveRecord& record :
+         solve_frames(solver, scene.times, change_at, nobody, [](int, const Positions&) {})) {
+      corrections += record.convergence.iterations;
+    }
+  };
+  const Pair pair = time_pair(
+      3, [&] { run(direct); }, [&] { run(warm); });
+  figures.push_back({group, "direct, whole frames", pair.first / kFrames * 1e3, "ms/frame", ""});
+  figures.push_back({group, "warm, whole frames", pair.second / kFrames * 1e3, "ms/frame",
+                     fmt::format("{} corrections for {} frames", corrections, kFrames)});
+}
+
+}  // namespace
+
+void bench_solvers(int vertices, Figures& figures) {
+  const tbb::global_control one_thread(tbb::global_control::max_allowed_parallelism, 1);
+  const Scene scene(vertices);
+  const std::string size = shown_count(vertices);
+  {
+    const std::string group = "K_L, " + size + " vertices";
+    const DisplacementSystem system = scene.system(HoldRule::Nothing);
+    bench_relaxation(group, scene, system, Solver::Jacobi, figures);
+    const double relaxed = bench_relaxation(group, scene, system, Solver::GaussSeidel, figures);
+    bench_pcg(group, scene, system, figures);
+    bench_factor(group, scene, system, relaxed, figures);
+    bench_frames(group, scene, system, 1e-8, figures);
+  }
+  const std::string group = "held, " + size + " vertices";
+  const DisplacementSystem held = scene.system(HoldRule::Untouched);
+  const SurfaceSolver solver(held, options_of(Solver::Direct, 1e-8), nobody);
+  figures.push_back(
+      {group, "unknowns", static_cast<double>(held.equations().matrix.rows()), "", ""});
+  figures.push_back({group, "factor, bytes an unknown",
+                     static_cast<double>(solver.factor_bytes()) /
+                         static_cast<double>(held.equations().matrix.rows()),
+                     "B", ""});
+  bench_frames(group, scene, held, 1e-8, figures);
+}
+
+}  // namespace morphbake::bench
