@@ -2,6 +2,9 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
+#include <memory>
+
 #include "morphbake/gltf/write_morph.h"
 #include "morphbake/mesh/measures.h"
 #include "morphbake/version.h"
@@ -63,6 +66,17 @@ void check_normals(const Recipe& recipe, std::size_t index, const NormalReport& 
   report(observer, problem);
 }
 
+/// The motion with progress and a place to stop at each moment that is asked for: once a frame for
+/// normals, twice for the measurement.
+ReferenceMotion watched(const ReferenceMotion& motion, const Observer& observer) {
+  const auto total = static_cast<int>(3 * motion.frame_times.size());
+  const auto done = std::make_shared<int>(0);
+  return {motion.frame_times, [motion, &observer, total, done](double time) {
+            advance(observer, {"export", std::min((*done)++, total), total});
+            return motion.positions_at(time);
+          }};
+}
+
 /// A morph and the motion that it is to show.
 struct MorphWithMotion {
   MeshMorph morph;
@@ -77,12 +91,12 @@ MorphWithMotion make_still_output(const SolvedRecipe& solved, const Still& still
 }
 
 MorphWithMotion make_animated_output(const SolvedRecipe& solved, TargetKind targets,
-                                     const BasisOptions& options) {
+                                     const BasisOptions& options, const Observer& observer) {
   const Timeline& timeline = solved.recipe.timeline;
   const auto& [separable, system, solver, shapes, frames, report] = solved.timeline;
   const bool by_track = targets == TargetKind::Tracks;
-  const ReferenceMotion motion =
-      by_track ? continuous_motion(shapes, separable, timeline) : stepped_motion(frames);
+  const ReferenceMotion motion = watched(
+      by_track ? continuous_motion(shapes, separable, timeline) : stepped_motion(frames), observer);
   const MorphBasis basis =
       by_track ? track_basis(shapes, separable, timeline, options) : frame_basis(frames);
   MeshMorph morph = make_mesh_morph(solved.first, solved.mesh, basis, solved.groups, motion);
@@ -95,9 +109,9 @@ MorphWithMotion make_animated_output(const SolvedRecipe& solved, TargetKind targ
 StagedOutput stage_output(const SolvedRecipe& solved, std::size_t index, const BakeOptions& options,
                           const Observer& observer, PendingOutputs& outputs) {
   const Output& output = solved.recipe.outputs[index];
-  const auto [morph, motion] = output.still
-                                   ? make_still_output(solved, *output.still, options.solve)
-                                   : make_animated_output(solved, output.targets, options.basis);
+  const auto [morph, motion] =
+      output.still ? make_still_output(solved, *output.still, options.solve)
+                   : make_animated_output(solved, output.targets, options.basis, observer);
   if (!output.still) warn_of_targets(solved.recipe, index, morph.target_names.size(), observer);
   const MorphError error =
       measure_mesh_morph(solved.first, solved.mesh, morph, solved.groups, motion);

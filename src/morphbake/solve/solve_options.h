@@ -18,7 +18,7 @@ struct SolveOptions {
   RightHandSide right_hand_side = RightHandSide::Edge;
   /// Largest estimated distance of a vertex from the exact solution, as a fraction of the
   /// bounding-box diagonal.
-  double tolerance = 1e-8;
+  double tolerance = 1e-9;
   /// Sweeps or steps of one solve before it counts as not converging.
   int max_iterations = 200000;
   /// Solves every frame, as the paper does, instead of the few shapes that the timeline separates

@@ -18,6 +18,10 @@ constexpr double kLargestFactor = 12e9;
 constexpr int kCorrectionLimit = 8;
 constexpr double kSmallestContraction = 1e-15;
 
+/// One solution is known, others may keep more of their error: twenty times as much was seen with
+/// half of 100k vertices held (tests/property/hold_long_test.cpp).
+constexpr double kContractionMargin = 100;
+
 /// Errors of other right-hand sides may be slower ones than the surface's own: up to twice was seen
 /// on three meshes (tests/property/solvers_long_test.cpp).
 constexpr double kAmplificationMargin = 3;
@@ -103,7 +107,8 @@ void SurfaceSolver::calibrate() {
   }
   Eigen::MatrixXd error = std::get<CholeskyFactor>(method_).solve(equations.matrix * known) - known;
   remove_block_means(equations, error);
-  contraction_ = std::max(kSmallestContraction, largest_row(error) / system_.diagonal());
+  contraction_ =
+      kContractionMargin * std::max(kSmallestContraction, largest_row(error) / system_.diagonal());
 }
 
 std::vector<Convergence> SurfaceSolver::solve(const std::vector<Goal>& goals,
