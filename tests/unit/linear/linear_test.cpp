@@ -1,0 +1,128 @@
+#include <gtest/gtest.h>
+
+#include <memory>
+
+#include "morphbake/diagnostics/problem.h"
+#include "morphbake/differential/laplacian.h"
+#include "morphbake/linear/cholesky_factor.h"
+#include "morphbake/linear/iterate.h"
+#include "shapes/shapes.h"
+
+namespace morphbake {
+namespace {
+
+/// K_L of a sphere beside a torus: two singular blocks.
+struct TwoBlocks {
+  SymmetricSystem system;
+  Eigen::MatrixXd known;
+  Eigen::MatrixXd b;
+
+  TwoBlocks() {
+    const Mesh mesh = test::joined(test::sphere(8, 10), test::torus(10, 8));
+    const Connectivity connectivity{static_cast<int>(mesh.positions.rows()), mesh.triangles};
+    const OneRings rings = one_rings(connectivity);
+    const Components components = connected_components(rings);
+    system = {symmetric_laplacian(rings), components.label, components.count};
+    known = mesh.positions;
+    remove_block_means(system, known);
+    b = system.matrix * known;
+  }
+
+  double error(Eigen::MatrixXd x) const {
+    remove_block_means(system, x);
+    return (x - known).rowwise().norm().maxCoeff();
+  }
+};
+
+TEST(RemoveBlockMeans, LeavesDefiniteRowsAlone) {
+  const SymmetricSystem system{{}, {0, -1, 0}, 1};
+  Eigen::MatrixXd columns(3, 1);
+  columns << 1, 5, 3;
+  remove_block_means(system, columns);
+  EXPECT_EQ(columns, (Eigen::MatrixXd(3, 1) << -1, 5, 1).finished());
+}
+
+TEST(CholeskyFactor, SolvesEverySingularBlock) {
+  const TwoBlocks two;
+  const CholeskyFactor factor(two.system);
+  EXPECT_LT(two.error(factor.solve(two.b)), 1e-12);
+  EXPECT_GT(factor.bytes(), two.system.matrix.rows() * sizeof(double));
+}
+
+TEST(CholeskyFactor, TakesASystemWithoutUnknowns) {
+  const CholeskyFactor factor(SymmetricSystem{});
+  EXPECT_EQ(factor.solve(Eigen::MatrixXd(0, 3)).rows(), 0);
+  EXPECT_EQ(factor.bytes(), 0U);
+}
+
+TEST(CholeskyFactor, RefusesWhatIsNotDefinite) {
+  SymmetricSystem system{Eigen::SparseMatrix<double>(2, 2), {-1, -1}, 0};
+  system.matrix.insert(0, 0) = 1;
+  system.matrix.insert(1, 1) = -1;
+  EXPECT_THROW(CholeskyFactor{system}, BakeError);
+}
+
+class Iterations : public testing::TestWithParam<const char*> {
+ protected:
+  Iteration iteration(const TwoBlocks& two) const {
+    const std::string name = GetParam();
+    if (name == "jacobi") {
+      return [&](const auto& b, const auto& stop, auto& x) {
+        return iterate_jacobi(two.system, b, stop, x);
+      };
+    }
+    if (name == "gauss-seidel") {
+      return [&](const auto& b, const auto& stop, auto& x) {
+        return iterate_gauss_seidel(two.system, b, stop, x);
+      };
+    }
+    const auto factor = std::make_shared<IncompleteFactor>(two.system);
+    return [&, factor](const auto& b, const auto& stop, auto& x) {
+      return iterate_conjugate_gradients(two.system, *factor, b, stop, x);
+    };
+  }
+};
+
+TEST_P(Iterations, StopWithinTheTolerance) {
+  const TwoBlocks two;
+  const Iteration solve = iteration(two);
+  StopRule stop;
+  stop.tolerance = 1e-6;
+  stop.max_iterations = 100000;
+  stop.amplification = measure_amplification(two.system, solve, two.known, 100000);
+  Eigen::MatrixXd x = Eigen::MatrixXd::Zero(two.b.rows(), 3);
+  const Convergence convergence = solve(two.b, stop, x);
+  EXPECT_TRUE(convergence.reached);
+  EXPECT_LE(convergence.error, 1e-6);
+  EXPECT_LT(two.error(x), 1e-6);
+  EXPECT_LT(convergence.residual, 1e-5);
+}
+
+TEST_P(Iterations, SayWhenTheyDidNotConverge) {
+  const TwoBlocks two;
+  StopRule stop;
+  stop.tolerance = 1e-9;
+  stop.max_iterations = 3;
+  Eigen::MatrixXd x = Eigen::MatrixXd::Zero(two.b.rows(), 3);
+  const Convergence convergence = iteration(two)(two.b, stop, x);
+  EXPECT_FALSE(convergence.reached);
+  EXPECT_EQ(convergence.iterations, 3);
+  EXPECT_GT(convergence.error, 1e-9);
+}
+
+TEST_P(Iterations, NeedNothingFromTheSolutionOn) {
+  const TwoBlocks two;
+  StopRule stop;
+  stop.tolerance = 1e-9;
+  stop.max_iterations = 100;
+  Eigen::MatrixXd x = two.known;
+  const Convergence convergence = iteration(two)(two.b, stop, x);
+  EXPECT_TRUE(convergence.reached);
+  EXPECT_LE(convergence.iterations, 32);
+}
+
+INSTANTIATE_TEST_SUITE_P(Methods, Iterations,
+                         testing::Values("jacobi", "gauss-seidel", "conjugate-gradients"));
+
+}  // namespace
+}  // namespace morphbake

@@ -1,0 +1,130 @@
+#include "morphbake/solve/solve_frames.h"
+
+#include <gtest/gtest.h>
+#include <tbb/global_control.h>
+
+#include <cmath>
+
+#include "morphbake/mesh/measures.h"
+#include "morphbake/solve/frame_source.h"
+#include "shapes/shapes.h"
+
+namespace morphbake {
+namespace {
+
+/// A soft plane that sweeps over a sphere and a bent copy; more frames than a chunk has.
+struct Sweep {
+  MorphableMesh mesh;
+  std::vector<double> times;
+
+  Sweep() {
+    const Mesh sphere = test::sphere(12, 16);
+    mesh =
+        test::morphable(sphere.triangles, {sphere.positions, test::bent(sphere.positions, 0.3, 2)});
+    for (int f = 0; f <= 90; ++f) times.push_back(f / 90.0);
+  }
+
+  Eigen::MatrixXd change_at(double time) const {
+    const Positions& V = mesh.geometries[0];
+    Eigen::MatrixXd change(2, V.rows());
+    for (Eigen::Index v = 0; v < V.rows(); ++v) {
+      const double share = std::clamp((2.9 * time - 1 - V(v, 1)) / 0.8, 0.0, 1.0);
+      change.col(v) << -share, share;
+    }
+    return change;
+  }
+
+  DisplacementSystem system() const {
+    const SeparableTimeline middle{{}, {{"", change_at(0.5), {}}}};
+    return {mesh,
+            choose_constraints(mesh, connected_components(one_rings(mesh.connectivity)),
+                               untouched_vertices(middle), {HoldRule::Nothing, {}, {}, -1}),
+            RightHandSide::Edge};
+  }
+};
+
+struct Solved {
+  std::vector<Positions> frames;
+  std::vector<SolveRecord> records;
+};
+
+Solved solve(const Sweep& sweep, const DisplacementSystem& system, Solver method) {
+  SolveOptions options;
+  options.solver = method;
+  options.tolerance = 1e-8;
+  const Observer nobody;
+  const SurfaceSolver solver(system, options, nobody);
+  Solved solved;
+  solved.records = solve_frames(
+      solver, sweep.times, [&](double time) { return sweep.change_at(time); }, nobody,
+      [&](int frame, const Positions& positions) {
+        EXPECT_EQ(frame, static_cast<int>(solved.frames.size()));
+        solved.frames.push_back(positions);
+      });
+  return solved;
+}
+
+class FrameSolvers : public testing::TestWithParam<Solver> {};
+
+TEST_P(FrameSolvers, EqualSolvingEachFrameAlone) {
+  const Sweep sweep;
+  const DisplacementSystem system = sweep.system();
+  const Solved solved = solve(sweep, system, GetParam());
+  ASSERT_EQ(solved.frames.size(), sweep.times.size());
+  const Observer nobody;
+  const SurfaceSolver alone(system, {}, nobody);
+  for (std::size_t f = 0; f < sweep.times.size(); f += 5) {
+    std::vector<SolveRecord> records;
+    const Positions expected = solve_change(alone, sweep.change_at(sweep.times[f]), "", records);
+    EXPECT_LT(largest_distance(solved.frames[f], expected), 1e-8 * system.diagonal()) << f;
+  }
+  // The first frame is the start and the last is the other source: both are blends.
+  EXPECT_LE(solved.records.size(), sweep.times.size() - 2);
+  for (const SolveRecord& record : solved.records) {
+    EXPECT_LE(record.convergence.error, 1e-8 * system.diagonal());
+    EXPECT_GT(record.time, 0);
+  }
+  EXPECT_EQ(
+      largest_distance(solved.frames.back(), sweep.mesh.geometries[1] - sweep.mesh.geometries[0]),
+      0);
+}
+
+TEST_P(FrameSolvers, GiveTheSameBytesOnAnyNumberOfThreads) {
+  const Sweep sweep;
+  const DisplacementSystem system = sweep.system();
+  const auto with_threads = [&](std::size_t count) {
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, count);
+    return solve(sweep, system, GetParam()).frames;
+  };
+  EXPECT_EQ(with_threads(1), with_threads(4));
+}
+
+std::string name_of_parameter(const testing::TestParamInfo<Solver>& info) {
+  std::string name = name_of(info.param);
+  std::erase(name, '-');
+  return name;
+}
+
+INSTANTIATE_TEST_SUITE_P(Methods, FrameSolvers,
+                         testing::Values(Solver::Direct, Solver::Warm, Solver::ConjugateGradients,
+                                         Solver::GaussSeidel, Solver::Jacobi),
+                         name_of_parameter);
+
+TEST(SolvedFrames, AreKeptAndReadInAnyOrder) {
+  const Sweep sweep;
+  const DisplacementSystem system = sweep.system();
+  const Observer nobody;
+  const SurfaceSolver solver(system, {}, nobody);
+  std::vector<SolveRecord> records;
+  const Positions& rest = sweep.mesh.geometries[0];
+  const FrameSource source = solved_frames(
+      solver, rest, sweep.times, [&](double time) { return sweep.change_at(time); }, nobody,
+      records);
+  const std::vector<Positions> frames = solve(sweep, system, Solver::Direct).frames;
+  for (const std::size_t f : {std::size_t{90}, std::size_t{0}, std::size_t{41}}) {
+    EXPECT_LT(largest_distance(source.positions(f), rest + frames[f]), 1e-9);
+  }
+}
+
+}  // namespace
+}  // namespace morphbake
