@@ -11,8 +11,8 @@ namespace morphbake {
 namespace {
 
 /// Bytes of a float64 factor a row, measured at 100k vertices (pipeline/bench): K_L and L^T L.
-constexpr double kHarmonicBytes = 600;
-constexpr double kHeldBytes = 2000;
+constexpr double kHarmonicBytes = 850;
+constexpr double kHeldBytes = 1700;
 constexpr double kLargestFactor = 12e9;
 
 constexpr int kCorrectionLimit = 8;
