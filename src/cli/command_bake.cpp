@@ -124,12 +124,7 @@ Command add_bake(CLI::App& program) {
   parser->add_option("RECIPE", arguments->recipe, "A recipe (JSON)")->required();
   parser->add_option("-o,--output-dir", arguments->output_dir,
                      "Write all files into this folder instead of where the recipe says");
-  parser
-      ->add_option(
-          "--set", arguments->settings,
-          "Override an option by its JSON pointer; may be repeated (names: morphbake config)")
-      ->type_name("/POINTER=VALUE")
-      ->allow_extra_args(false);
+  add_settings(*parser, arguments->settings);
   parser->add_option("--preview", arguments->preview, "`none` leaves the recipe's previews out")
       ->check(CLI::IsMember({"recipe", "none"}))
       ->capture_default_str();

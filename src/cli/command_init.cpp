@@ -29,24 +29,20 @@ std::filesystem::path schema_beside_program() {
   return {};
 }
 
+[[noreturn]] void refuse(const std::filesystem::path& file, const char* message, const char* hint) {
+  throw BakeError(
+      Problem{Severity::Error, "usage.would-overwrite", {file.string(), "", 0, 0}, message, hint});
+}
+
 void run_init(const Arguments& arguments, Terminal& terminal) {
   if (!arguments.force && std::filesystem::exists(arguments.recipe)) {
-    Problem problem;
-    problem.code = "usage.would-overwrite";
-    problem.location.file = arguments.recipe.string();
-    problem.message = "the file exists";
-    problem.hint = "choose another name with --output, or overwrite it with --force";
-    throw BakeError(problem);
+    refuse(arguments.recipe, "the file exists",
+           "choose another name with --output, or overwrite it with --force");
   }
   for (const std::filesystem::path& source : arguments.sources) {
     std::error_code error;
     if (!std::filesystem::equivalent(source, arguments.recipe, error) || error) continue;
-    Problem problem;
-    problem.code = "usage.would-overwrite";
-    problem.location.file = arguments.recipe.string();
-    problem.message = "this is one of the sources";
-    problem.hint = "choose another name with --output";
-    throw BakeError(problem);
+    refuse(arguments.recipe, "this is one of the sources", "choose another name with --output");
   }
   PendingOutputs outputs;
   const std::filesystem::path staged = outputs.stage(

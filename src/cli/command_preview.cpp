@@ -71,12 +71,7 @@ Command add_preview(CLI::App& program) {
       ->check(CLI::IsMember({"png", "gif", "sheet"}))
       ->delimiter(',')
       ->capture_default_str();
-  parser
-      ->add_option(
-          "--set", arguments->settings,
-          "Override an option by its JSON pointer; may be repeated (names: morphbake config)")
-      ->type_name("/POINTER=VALUE")
-      ->allow_extra_args(false);
+  add_settings(*parser, arguments->settings);
   parser->footer(
       "\nExample: morphbake preview morph.glb --size 800x600 --frames 120 --formats gif");
   return {parser, [arguments](Terminal& terminal) { run_preview(*arguments, terminal); }};

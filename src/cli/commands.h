@@ -4,6 +4,8 @@
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
 #include <functional>
+#include <string>
+#include <vector>
 
 #include "cli/terminal.h"
 
@@ -21,6 +23,9 @@ Command add_validate(CLI::App& program);
 Command add_inspect(CLI::App& program);
 Command add_preview(CLI::App& program);
 Command add_config(CLI::App& program);
+
+/// The option `--set /POINTER=VALUE`, which may be repeated.
+void add_settings(CLI::App& parser, std::vector<std::string>& settings);
 
 /// The error of a command line that cannot be meant: "usage.bad-argument".
 BakeError usage_error(const std::string& message, const std::string& hint);
