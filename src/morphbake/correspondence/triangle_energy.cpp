@@ -1,0 +1,97 @@
+#include "morphbake/correspondence/triangle_energy.h"
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+namespace morphbake {
+namespace {
+
+using Eigen::Vector3d;
+
+double dirichlet(const RestTriangle& rest, const Vector3d& a, const Vector3d& b,
+                 const Vector3d& c) {
+  return 0.5 *
+         (rest.cotangents(0) * (b - c).squaredNorm() + rest.cotangents(1) * (c - a).squaredNorm() +
+          rest.cotangents(2) * (a - b).squaredNorm());
+}
+
+}  // namespace
+
+RestTriangle rest_triangle(const Vector3d& a, const Vector3d& b, const Vector3d& c,
+                           double area_scale, const RestLimits& limits) {
+  const std::array<const Vector3d*, 3> p{&a, &b, &c};
+  std::size_t k = 0;  // the corner opposite the longest edge
+  double longest = -1;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double length = (*p[(i + 2) % 3] - *p[(i + 1) % 3]).squaredNorm();
+    if (length > longest) {
+      longest = length;
+      k = i;
+    }
+  }
+  longest = std::max(std::sqrt(longest), 1e-12);
+  const Vector3d base = *p[(k + 2) % 3] - *p[(k + 1) % 3];
+  const Vector3d side = *p[k] - *p[(k + 1) % 3];
+  const double height = std::max(base.cross(side).norm() / longest, limits.height * longest);
+  const double along = std::clamp(side.dot(base) / longest, 0.0, longest);
+  RestTriangle rest;
+  const auto corner = [&](std::size_t i) -> double& {
+    return rest.cotangents(static_cast<int>(i % 3));
+  };
+  corner(k + 1) = along / height;
+  corner(k + 2) = (longest - along) / height;
+  corner(k) = (height * height - along * (longest - along)) / (longest * height);
+  rest.area = std::max(0.5 * longest * height * area_scale, limits.area);
+  return rest;
+}
+
+double sphere_energy(const RestTriangle& rest, const Vector3d& a, const Vector3d& b,
+                     const Vector3d& c) {
+  const double d = determinant(a, b, c);
+  if (!(d > 1e-150)) return std::numeric_limits<double>::infinity();
+  const double r = 2 * rest.area / d;
+  return dirichlet(rest, a, b, c) * (1 + r * r);
+}
+
+void add_sphere_energy(const RestTriangle& rest, const Vector3d& a, const Vector3d& b,
+                       const Vector3d& c, CornerEnergy& sum) {
+  const double q = dirichlet(rest, a, b, c);
+  const double d = determinant(a, b, c);
+  const Vector3d dd = b.cross(c - b);
+  const Vector3d dq = rest.cotangents(1) * (a - c) + rest.cotangents(2) * (a - b);
+  const double ddq = rest.cotangents(1) + rest.cotangents(2);
+  const double r = 4 * rest.area * rest.area / (d * d);
+  sum.energy += q * (1 + r);
+  sum.gradient += (1 + r) * dq - (2 * q * r / d) * dd;
+  const Eigen::Matrix3d mixed = dq * dd.transpose();
+  sum.hessian += ddq * (1 + r) * Eigen::Matrix3d::Identity() -
+                 (2 * r / d) * (mixed + mixed.transpose()) +
+                 (6 * q * r / (d * d)) * (dd * dd.transpose());
+}
+
+TangentAxes tangent_axes(const Vector3d& p) {
+  const Vector3d aside = std::abs(p.x()) < 0.8 ? Vector3d::UnitX() : Vector3d::UnitY();
+  const Vector3d a = aside.cross(p).normalized();
+  return {a, p.cross(a)};
+}
+
+Eigen::Vector2d newton_step(const Eigen::Vector2d& gradient, const Eigen::Matrix2d& hessian) {
+  // Eigenvalues of [[m + d, o], [o, m - d]] are m +- r; made positive and bounded away from zero.
+  const double m = 0.5 * (hessian(0, 0) + hessian(1, 1));
+  const double d = 0.5 * (hessian(0, 0) - hessian(1, 1)), o = hessian(0, 1);
+  const double r = std::hypot(d, o);
+  const double largest = std::max(std::abs(m + r), std::abs(m - r));
+  if (!(largest > 0) || !std::isfinite(largest)) return Eigen::Vector2d::Zero();
+  const double first = std::max(std::abs(m + r), 1e-4 * largest);
+  const double second = std::max(std::abs(m - r), 1e-4 * largest);
+  // The eigenvector of m + r, by half the angle of (d, o).
+  const double angle = 0.5 * std::atan2(o, d);
+  const Eigen::Vector2d e(std::cos(angle), std::sin(angle)), f(-e.y(), e.x());
+  return -(e * (e.dot(gradient) / first) + f * (f.dot(gradient) / second));
+}
+
+}  // namespace morphbake
