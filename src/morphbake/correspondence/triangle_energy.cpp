@@ -19,6 +19,50 @@ double dirichlet(const RestTriangle& rest, const Vector3d& a, const Vector3d& b,
           rest.cotangents(2) * (a - b).squaredNorm());
 }
 
+/// Twice the area that enters an energy, and its derivative by the first corner.
+struct TwiceArea {
+  double value = 0;
+  Vector3d derivative;
+};
+
+TwiceArea seen_area(const RestTriangle& rest, const Vector3d& normal, const Vector3d& a,
+                    const Vector3d& b, const Vector3d& c) {
+  const double s = normal.dot((b - a).cross(c - a));
+  const double e = 0.05 * 2 * rest.area;
+  const double root = std::sqrt(s * s + 4 * e * e);
+  return {0.5 * (s + root), 0.5 * (1 + s / root) * (b - c).cross(normal)};
+}
+
+/// Q (1 + 4 A^2 / d^2) and its derivatives; that d is not quite linear in `a` is left out of the
+/// Hessian.
+void add_energy(const RestTriangle& rest, const std::array<Vector3d, 3>& corners,
+                const TwiceArea& twice_area, double weight, CornerEnergy& sum) {
+  const auto& [a, b, c] = corners;
+  const double q = weight * dirichlet(rest, a, b, c);
+  const auto& [d, dd] = twice_area;
+  const Vector3d dq = weight * (rest.cotangents(1) * (a - c) + rest.cotangents(2) * (a - b));
+  const double ddq = weight * (rest.cotangents(1) + rest.cotangents(2));
+  const double r = 4 * rest.area * rest.area / (d * d);
+  sum.energy += q * (1 + r);
+  sum.gradient += (1 + r) * dq - (2 * q * r / d) * dd;
+  const Eigen::Matrix3d mixed = dq * dd.transpose();
+  sum.hessian += ddq * (1 + r) * Eigen::Matrix3d::Identity() -
+                 (2 * r / d) * (mixed + mixed.transpose()) +
+                 (6 * q * r / (d * d)) * (dd * dd.transpose());
+}
+
+/// A rest triangle from its longest edge, opposite corner k: the foot of the height is `along` from
+/// the corner that follows k.
+RestTriangle rest_from_base(int k, double longest, double along, double height, double area_scale,
+                            double least_area) {
+  RestTriangle rest;
+  rest.cotangents((k + 1) % 3) = along / height;
+  rest.cotangents((k + 2) % 3) = (longest - along) / height;
+  rest.cotangents(k) = (height * height - along * (longest - along)) / (longest * height);
+  rest.area = std::max(0.5 * longest * height * area_scale, least_area);
+  return rest;
+}
+
 }  // namespace
 
 RestTriangle rest_triangle(const Vector3d& a, const Vector3d& b, const Vector3d& c,
@@ -38,15 +82,7 @@ RestTriangle rest_triangle(const Vector3d& a, const Vector3d& b, const Vector3d&
   const Vector3d side = *p[k] - *p[(k + 1) % 3];
   const double height = std::max(base.cross(side).norm() / longest, limits.height * longest);
   const double along = std::clamp(side.dot(base) / longest, 0.0, longest);
-  RestTriangle rest;
-  const auto corner = [&](std::size_t i) -> double& {
-    return rest.cotangents(static_cast<int>(i % 3));
-  };
-  corner(k + 1) = along / height;
-  corner(k + 2) = (longest - along) / height;
-  corner(k) = (height * height - along * (longest - along)) / (longest * height);
-  rest.area = std::max(0.5 * longest * height * area_scale, limits.area);
-  return rest;
+  return rest_from_base(static_cast<int>(k), longest, along, height, area_scale, limits.area);
 }
 
 double sphere_energy(const RestTriangle& rest, const Vector3d& a, const Vector3d& b,
@@ -59,18 +95,31 @@ double sphere_energy(const RestTriangle& rest, const Vector3d& a, const Vector3d
 
 void add_sphere_energy(const RestTriangle& rest, const Vector3d& a, const Vector3d& b,
                        const Vector3d& c, CornerEnergy& sum) {
-  const double q = dirichlet(rest, a, b, c);
-  const double d = determinant(a, b, c);
-  const Vector3d dd = b.cross(c - b);
-  const Vector3d dq = rest.cotangents(1) * (a - c) + rest.cotangents(2) * (a - b);
-  const double ddq = rest.cotangents(1) + rest.cotangents(2);
-  const double r = 4 * rest.area * rest.area / (d * d);
-  sum.energy += q * (1 + r);
-  sum.gradient += (1 + r) * dq - (2 * q * r / d) * dd;
-  const Eigen::Matrix3d mixed = dq * dd.transpose();
-  sum.hessian += ddq * (1 + r) * Eigen::Matrix3d::Identity() -
-                 (2 * r / d) * (mixed + mixed.transpose()) +
-                 (6 * q * r / (d * d)) * (dd * dd.transpose());
+  add_energy(rest, {a, b, c}, {determinant(a, b, c), b.cross(c - b)}, 1, sum);
+}
+
+RestTriangle rest_triangle(const Vector3d& squared_lengths, const RestLimits& limits) {
+  int k = 0;
+  const double longest = std::sqrt(std::max(squared_lengths.maxCoeff(&k), 1e-24));
+  // The corner opposite the longest edge stands at `along` from the corner that follows it.
+  const double to_next = squared_lengths((k + 2) % 3), to_last = squared_lengths((k + 1) % 3);
+  const double along =
+      std::clamp((to_next + longest * longest - to_last) / (2 * longest), 0.0, longest);
+  const double height = std::sqrt(std::max(0.0, to_next - along * along));
+  return rest_from_base(k, longest, along, std::max(height, limits.height * longest), 1,
+                        limits.area);
+}
+
+double surface_energy(const RestTriangle& rest, const Vector3d& normal, const Vector3d& a,
+                      const Vector3d& b, const Vector3d& c) {
+  const double r = 2 * rest.area / seen_area(rest, normal, a, b, c).value;
+  return dirichlet(rest, a, b, c) * (1 + r * r);
+}
+
+void add_surface_energy(const RestTriangle& rest, const Vector3d& normal,
+                        const std::array<Vector3d, 3>& corners, double weight, CornerEnergy& sum) {
+  const auto& [a, b, c] = corners;
+  add_energy(rest, corners, seen_area(rest, normal, a, b, c), weight, sum);
 }
 
 TangentAxes tangent_axes(const Vector3d& p) {

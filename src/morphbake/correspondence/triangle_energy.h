@@ -1,6 +1,8 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <array>
 
 namespace morphbake {
 
@@ -57,6 +59,25 @@ double sphere_energy(const RestTriangle& rest, const Eigen::Vector3d& a, const E
 /// Adds the energy and its derivatives by `a`; (a, b, c) must be positive.
 void add_sphere_energy(const RestTriangle& rest, const Eigen::Vector3d& a, const Eigen::Vector3d& b,
                        const Eigen::Vector3d& c, CornerEnergy& sum);
+
+/// The rest shape whose squared edge lengths are given, edge k opposite corner k: for means of
+/// metrics.
+RestTriangle rest_triangle(const Eigen::Vector3d& squared_lengths, const RestLimits& limits);
+
+/// Symmetric Dirichlet energy of the map from a rest triangle to (a, b, c) in space, whose area is
+/// what a surface with this unit normal sees of it.
+///
+/// E = Q (1 + 4 A^2 / x(s)^2), s = normal . (b - a) x (c - a), x(s) = (s + sqrt(s^2 + 4 e^2)) / 2:
+/// a triangle that lies flat on the surface has the usual energy, one that stands up or is folded
+/// over has much, but finite energy, which leads it back.
+/// @see Garanzha et al. 2021 (foldover-free maps) for x(s)
+double surface_energy(const RestTriangle& rest, const Eigen::Vector3d& normal,
+                      const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c);
+
+/// Adds `weight` times the energy and its derivatives by `a`.
+void add_surface_energy(const RestTriangle& rest, const Eigen::Vector3d& normal,
+                        const std::array<Eigen::Vector3d, 3>& corners, double weight,
+                        CornerEnergy& sum);
 
 /// Two unit vectors perpendicular to `p` (of unit length) and each other; (a, b, p) is
 /// right-handed.
