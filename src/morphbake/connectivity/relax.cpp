@@ -14,6 +14,7 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 
 constexpr RestLimits kLimits{0.03, 1e-9};
+constexpr double kSlack = 0.05;  // of twice the area of an even triangle of the same size
 
 std::size_t index(int i) { return static_cast<std::size_t>(i); }
 
@@ -52,10 +53,9 @@ struct StarTriangle {
   int a = 0;
   int b = 0;
   bool is_cap = false;
-  RestTriangle rest;         ///< corner 0 is the vertex that moves
-  RestTriangle equilateral;  ///< of the same size
+  SurfaceTriangle mapped;       ///< from the mean of all layers; corner 0 is the vertex that moves
+  SurfaceTriangle equilateral;  ///< from an even triangle of the same size
   double weight = 0;
-  Vector3d normal;
 };
 
 /// Moves the vertices of one layer.
@@ -103,12 +103,16 @@ class LayerRelaxation {
       triangle.is_cap = t_.is_cap(f);
       if (triangle.is_cap) return;
       const RestTriangle& rest = frozen_.rest[index(f)];
-      for (int k = 0; k < 3; ++k) triangle.rest.cotangents(k) = rest.cotangents((h % 3 + k) % 3);
-      triangle.rest.area = rest.area;
-      triangle.normal = normals_[index(f)];
+      const double size = squared_lengths(layer_, v, triangle.a, triangle.b).sum();
+      triangle.mapped = {rest, normals_[index(f)], kSlack * size / (2 * std::sqrt(3.0))};
+      for (int k = 0; k < 3; ++k) {
+        triangle.mapped.rest.cotangents(k) = rest.cotangents((h % 3 + k) % 3);
+      }
       const double area = 0.5 * area_normal(layer_, v, triangle.a, triangle.b).norm();
       triangle.weight = 0.5 * (rest.area + area) / rest.area;
-      triangle.equilateral = {Vector3d::Constant(1 / std::sqrt(3.0)), 0.5 * (rest.area + area)};
+      triangle.equilateral = triangle.mapped;
+      triangle.equilateral.rest = {Vector3d::Constant(1 / std::sqrt(3.0)),
+                                   0.5 * (rest.area + area)};
     });
   }
 
@@ -116,12 +120,12 @@ class LayerRelaxation {
     double sum = 0;
     for (const StarTriangle& triangle : star_) {
       const Vector3d &a = layer_.lifted[index(triangle.a)], &b = layer_.lifted[index(triangle.b)];
-      if (!is_positive(place, layer_.sphere[index(triangle.a)], layer_.sphere[index(triangle.b)])) {
-        return std::numeric_limits<double>::infinity();
-      }
+      const Vector3d &sa = layer_.sphere[index(triangle.a)], &sb = layer_.sphere[index(triangle.b)];
+      if (!is_positive(place, sa, sb)) return std::numeric_limits<double>::infinity();
       if (triangle.is_cap) continue;
-      sum += triangle.weight * surface_energy(triangle.rest, triangle.normal, lifted, a, b) +
-             options_.shape * surface_energy(triangle.equilateral, triangle.normal, lifted, a, b);
+      sum -= options_.domain * triangle.mapped.rest.area * std::log(determinant(place, sa, sb));
+      sum += triangle.weight * surface_energy(triangle.mapped, lifted, a, b) +
+             options_.shape * surface_energy(triangle.equilateral, lifted, a, b);
     }
     return sum;
   }
@@ -129,13 +133,20 @@ class LayerRelaxation {
   void move(int v) {
     gather(v);
     const Vector3d place = layer_.sphere[index(v)], lifted = layer_.lifted[index(v)];
-    CornerEnergy at;
+    CornerEnergy at, domain;
     for (const StarTriangle& triangle : star_) {
       if (triangle.is_cap) continue;
+      const Vector3d &sa = layer_.sphere[index(triangle.a)], &sb = layer_.sphere[index(triangle.b)];
+      const double weight = options_.domain * triangle.mapped.rest.area;
+      const double d = determinant(place, sa, sb);
+      const Vector3d slope = sa.cross(sb - sa) / d;
+      domain.energy -= weight * std::log(d);
+      domain.gradient -= weight * slope;
+      domain.hessian += weight * slope * slope.transpose();
       const std::array corners{lifted, layer_.lifted[index(triangle.a)],
                                layer_.lifted[index(triangle.b)]};
-      add_surface_energy(triangle.rest, triangle.normal, corners, triangle.weight, at);
-      add_surface_energy(triangle.equilateral, triangle.normal, corners, options_.shape, at);
+      add_surface_energy(triangle.mapped, corners, triangle.weight, at);
+      add_surface_energy(triangle.equilateral, corners, options_.shape, at);
     }
     const int face = layer_.triangle[index(v)];
     Eigen::Matrix<double, 3, 2> axes;
@@ -146,10 +157,12 @@ class LayerRelaxation {
       axes << tangents.a, tangents.b;
     }
     const Eigen::Matrix<double, 3, 2> along = layer_.atlas.jacobian(place, face) * axes;
-    const Vector2d gradient = along.transpose() * at.gradient;
-    const Vector2d newton = newton_step(gradient, along.transpose() * at.hessian * along);
+    const Vector2d gradient = along.transpose() * at.gradient + axes.transpose() * domain.gradient;
+    const Vector2d newton = newton_step(gradient, along.transpose() * at.hessian * along +
+                                                      axes.transpose() * domain.hessian * axes);
     const double slope = gradient.dot(newton);
     if (!(-slope > 1e-8 * at.energy)) return;
+    const double energy = at.energy + domain.energy;
     const Vector3d direction = axes * newton;
     constexpr double kLongest = 0.3;  // radians
     double share = std::min(1.0, kLongest / direction.norm());
@@ -157,7 +170,7 @@ class LayerRelaxation {
       const Vector3d next = (place + share * direction).normalized();
       const int f = layer_.atlas.locate(next, face);
       const Vector3d next_lifted = layer_.atlas.position(f, layer_.atlas.weights_at(next, f));
-      if (!(energy_at(next, next_lifted) < at.energy + 1e-4 * share * slope)) continue;
+      if (!(energy_at(next, next_lifted) < energy + 1e-4 * share * slope)) continue;
       layer_.sphere[index(v)] = next;
       layer_.lifted[index(v)] = next_lifted;
       layer_.triangle[index(v)] = f;

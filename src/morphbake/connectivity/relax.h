@@ -9,6 +9,10 @@ struct RelaxOptions {
   int sweeps = 1;
   /// Weight of a triangle's own shape (equilateral) beside that of the map between sources.
   double shape = 0.1;
+  /// Weight of a barrier that keeps triangles large enough on the sphere to move on: the map's
+  /// energy lives in space and does not see the sphere's walls, at which vertices would stick for
+  /// ever.
+  double domain = 0.1;
   /// Vertices where a triangle's normal turns from the vertex's by more than this cosine stay
   /// where they capture a feature; -1: none stays.
   double feature_cosine = -1;

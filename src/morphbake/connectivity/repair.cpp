@@ -3,213 +3,365 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <random>
 
 #include "morphbake/connectivity/point_distance.h"
+#include "morphbake/connectivity/triangle_cost.h"
 #include "morphbake/correspondence/triangle_energy.h"
 
 namespace morphbake {
 namespace {
 
+using Corners = std::array<int, 3>;
 using Eigen::Vector3d;
+
+constexpr int kMoves = 24;  // places tried for a vertex on each layer
 
 std::size_t index(int i) { return static_cast<std::size_t>(i); }
 
-Vector3d squared_lengths(const Layer& layer, int a, int b, int c) {
-  const Vector3d &pa = layer.lifted[index(a)], &pb = layer.lifted[index(b)],
-                 &pc = layer.lifted[index(c)];
-  return {(pb - pc).squaredNorm(), (pc - pa).squaredNorm(), (pa - pb).squaredNorm()};
+Corners corners_of(const LayeredTriangulation& t, int f) {
+  return {t.mesh.from(3 * f), t.mesh.from(3 * f + 1), t.mesh.from(3 * f + 2)};
 }
 
-/// How bad a triangle is: about 1 + 1 a layer for a good one.
-struct Badness {
-  double sum = 0;
-  int folds = 0;
-};
-
-Badness badness(const LayeredTriangulation& t, int a, int b, int c) {
-  Badness bad;
-  Vector3d mean = Vector3d::Zero();
-  for (const Layer& layer : t.layers) mean += squared_lengths(layer, a, b, c);
-  const RestTriangle rest =
-      rest_triangle(mean / static_cast<double>(t.layers.size()), {1e-3, 1e-14});
-  for (const Layer& layer : t.layers) {
-    const Vector3d normal = area_normal(layer, a, b, c);
-    const double twice_area = normal.norm();
-    const Vector3d lengths = squared_lengths(layer, a, b, c);
-    bad.sum += std::min(1e4, lengths.sum() / (2 * std::sqrt(3.0) * std::max(twice_area, 1e-300)));
-    const double q = 0.5 * rest.cotangents.dot(lengths);
-    const double ratio = 2 * rest.area / std::max(twice_area, 1e-300);
-    // Twice against the mean is about once between two sources.
-    bad.sum += std::min(1e4, q * (1 + ratio * ratio) / (4 * rest.area));
-    const double cosine = normal_below(layer, a, b, c).dot(normal) / (twice_area + 1e-300);
-    if (cosine < 0) {
-      bad.sum += 20;
-      ++bad.folds;
-    } else if (cosine < 0.3) {
-      bad.sum += (0.3 - cosine) * 10;
+/// Repairs one triangulation; keeps which source vertices lie under which triangle.
+class Repair {
+ public:
+  Repair(LayeredTriangulation& t, SourcePoints& points, double tolerance)
+      : t_(t), points_(points), tolerance_(tolerance), below_(t.layers.size()) {
+    for (std::size_t s = 0; s < t.layers.size(); ++s) {
+      below_[s].resize(index(t.mesh.triangle_slots()));
+      for (const int v : points.order[s]) {
+        if (t.layers[s].atlas.map->on_boundary[index(v)]) continue;
+        below_[s][index(points.triangle[s][index(v)])].push_back(v);
+      }
     }
+    costs_.resize(index(t.mesh.triangle_slots()), 0);
+    tbb::parallel_for(0, t.mesh.triangle_slots(), [&](int f) {
+      int folds = 0;
+      if (t_.mesh.has_triangle(f)) costs_[index(f)] = triangle_cost(t_, f, folds);
+    });
   }
-  return bad;
-}
 
-Badness badness(const LayeredTriangulation& t, int f) {
-  if (t.is_cap(f)) return {};
-  return badness(t, t.mesh.from(3 * f), t.mesh.from(3 * f + 1), t.mesh.from(3 * f + 2));
-}
-
-bool try_flip(LayeredTriangulation& t, int h, double tolerance) {
-  if (!can_flip(t, h)) return false;
-  const int a = t.mesh.from(h), b = t.mesh.to(h);
-  const int c = t.mesh.apex(h), d = t.mesh.apex(t.mesh.opposite(h));
-  for (const Layer& layer : t.layers) {
-    const double before =
-        middle_deviation(layer, a, b, area_normal(layer, a, b, c) + area_normal(layer, b, a, d));
-    const double after =
-        middle_deviation(layer, c, d, area_normal(layer, a, d, c) + area_normal(layer, d, b, c));
-    if (after > tolerance && after > before) return false;
+  Repaired pass(double threshold) {
+    Repaired repaired;
+    std::vector<std::pair<double, int>> bad;
+    for (int f = 0; f < static_cast<int>(costs_.size()); ++f) {
+      if (t_.mesh.has_triangle(f) && costs_[index(f)] > threshold) {
+        bad.emplace_back(-costs_[index(f)], f);
+      }
+    }
+    std::sort(bad.begin(), bad.end());
+    repaired.bad = static_cast<int>(bad.size());
+    for (const auto& [cost, f] : bad) {
+      if (t_.mesh.has_triangle(f) && costs_[index(f)] > threshold) repaired.changes += better(f);
+    }
+    return repaired;
   }
-  const double before = badness(t, a, b, c).sum + badness(t, b, a, d).sum;
-  const double after = badness(t, a, d, c).sum + badness(t, d, b, c).sum;
-  if (!(after < before - 0.3)) return false;
-  t.mesh.flip(h);
-  return true;
-}
 
-bool try_collapse(LayeredTriangulation& t, int h, double tolerance) {
-  if (!can_collapse(t, h)) return false;
-  const int u = t.mesh.from(h), v = t.mesh.to(h);
-  double before = 0, after = 0, worst_before = 0, worst_after = 0;
-  int count_before = 0, count_after = 0;
-  std::vector<std::array<int, 2>> outer;
-  bool ok = true;
-  t.mesh.around(u, [&](int g) {
-    const int f = ClosedMesh::triangle_of(g);
-    const int a = t.mesh.to(g), b = t.mesh.apex(g);
-    if (t.is_cap(f)) {
+ private:
+  bool better(int f) {
+    const Corners corners = corners_of(t_, f);
+    for (int k = 0; k < 3; ++k) {
+      if (try_flip(3 * f + k)) return true;
+    }
+    for (int k = 0; k < 3; ++k) {
+      const int h = 3 * f + k;
+      if (try_collapse(h) || try_collapse(t_.mesh.opposite(h))) return true;
+    }
+    bool moved = false;
+    for (const int v : corners) moved |= try_move(v);
+    return moved;
+  }
+
+  /// Vertices and edge middles of a source around some triangles.
+  std::vector<Vector3d> samples(std::size_t s, const std::vector<int>& triangles,
+                                const std::vector<std::array<int, 2>>& edges) const {
+    const Layer& layer = t_.layers[s];
+    std::vector<Vector3d> found;
+    for (const int f : triangles) {
+      for (const int v : below_[s][index(f)]) found.push_back(layer.atlas.positions[index(v)]);
+    }
+    for (const auto& [a, b] : edges) {
+      const Vector3d place = (layer.sphere[index(a)] + layer.sphere[index(b)]).normalized();
+      const int f = layer.atlas.locate(place, layer.triangle[index(a)]);
+      found.push_back(layer.atlas.position(f, layer.atlas.weights_at(place, f)));
+    }
+    return found;
+  }
+
+  double largest_distance(std::size_t s, const std::vector<Vector3d>& from,
+                          const std::vector<Corners>& triangles) const {
+    const Layer& layer = t_.layers[s];
+    double largest = 0;
+    for (const Vector3d& p : from) {
+      double nearest = std::numeric_limits<double>::infinity();
+      for (const auto& [a, b, c] : triangles) {
+        nearest = std::min(
+            nearest, point_triangle_distance(p, layer.lifted[index(a)], layer.lifted[index(b)],
+                                             layer.lifted[index(c)]));
+      }
+      largest = std::max(largest, nearest);
+    }
+    return largest / layer.atlas.diagonal;
+  }
+
+  /// How far the middles of new triangles and edges stand off the source, seen along its normal.
+  double stand_off(std::size_t s, const std::vector<Corners>& triangles,
+                   const std::vector<std::array<int, 2>>& edges) const {
+    const Layer& layer = t_.layers[s];
+    const auto off = [&](const Vector3d& place, const Vector3d& chord, int near_vertex) {
+      const int f = layer.atlas.locate(place.normalized(), layer.triangle[index(near_vertex)]);
+      const Vector3d below =
+          layer.atlas.position(f, layer.atlas.weights_at(place.normalized(), f));
+      return std::abs((chord - below).dot(layer.atlas.normals[index(f)]));
+    };
+    double largest = 0;
+    for (const auto& [a, b, c] : triangles) {
+      if (a == t_.apex || b == t_.apex || c == t_.apex) continue;
+      largest = std::max(
+          largest,
+          off(layer.sphere[index(a)] + layer.sphere[index(b)] + layer.sphere[index(c)],
+              (layer.lifted[index(a)] + layer.lifted[index(b)] + layer.lifted[index(c)]) / 3, a));
+    }
+    for (const auto& [a, b] : edges) {
+      largest = std::max(largest, off(layer.sphere[index(a)] + layer.sphere[index(b)],
+                                      0.5 * (layer.lifted[index(a)] + layer.lifted[index(b)]), a));
+    }
+    return largest / layer.atlas.diagonal;
+  }
+
+  /// Whether the sources stay as near to new triangles as they were to old ones, or within the
+  /// tolerance.
+  bool stays_near(const std::vector<int>& old_triangles, const std::vector<Corners>& new_triangles,
+                  const std::vector<std::array<int, 2>>& new_edges) const {
+    std::vector<Corners> old_corners;
+    for (const int f : old_triangles) old_corners.push_back(corners_of(t_, f));
+    for (std::size_t s = 0; s < t_.layers.size(); ++s) {
+      const std::vector<Vector3d> around = samples(s, old_triangles, new_edges);
+      const double after = largest_distance(s, around, new_triangles);
+      if (after > tolerance_ && after > largest_distance(s, around, old_corners)) return false;
+      const double off = stand_off(s, new_triangles, new_edges);
+      if (off > tolerance_ && off > stand_off(s, old_corners, {})) return false;
+    }
+    return true;
+  }
+
+  double cost_of(const Corners& corners) const {
+    if (t_.apex >= 0 && std::find(corners.begin(), corners.end(), t_.apex) != corners.end())
+      return 0;
+    std::vector<LayerTriangle> layers;
+    for (const Layer& layer : t_.layers) {
+      layers.push_back(layer_triangle(layer, corners[0], corners[1], corners[2]));
+    }
+    int folds = 0;
+    return triangle_cost(layers, folds);
+  }
+
+  /// Hands the source vertices below old triangles to those that are there now.
+  void update(const std::vector<int>& old_triangles, const std::vector<int>& new_triangles) {
+    std::vector<std::vector<int>> loose(t_.layers.size());
+    for (std::size_t s = 0; s < t_.layers.size(); ++s) {
+      for (const int f : old_triangles) {
+        std::vector<int>& list = below_[s][index(f)];
+        loose[s].insert(loose[s].end(), list.begin(), list.end());
+        list.clear();
+      }
+      const Layer& layer = t_.layers[s];
+      for (const int v : loose[s]) {
+        const Vector3d& x = layer.atlas.sphere[index(v)];
+        int best = new_triangles.front();
+        double best_weight = -std::numeric_limits<double>::infinity();
+        for (const int f : new_triangles) {
+          const auto [a, b, c] = corners_of(t_, f);
+          Vector3d weights = central_weights(x, layer.sphere[index(a)], layer.sphere[index(b)],
+                                             layer.sphere[index(c)]);
+          const double least = weights.minCoeff() / std::max(weights.cwiseAbs().sum(), 1e-300);
+          if (least <= best_weight) continue;
+          best_weight = least;
+          best = f;
+        }
+        below_[s][index(best)].push_back(v);
+        points_.triangle[s][index(v)] = best;
+      }
+    }
+    for (const int f : new_triangles) costs_[index(f)] = cost_of(corners_of(t_, f));
+  }
+
+  bool try_flip(int h) {
+    if (!can_flip(t_, h)) return false;
+    const int o = t_.mesh.opposite(h);
+    const int a = t_.mesh.from(h), b = t_.mesh.to(h), c = t_.mesh.apex(h), d = t_.mesh.apex(o);
+    const std::vector<int> old{ClosedMesh::triangle_of(h), ClosedMesh::triangle_of(o)};
+    const std::vector<Corners> now{{a, d, c}, {d, b, c}};
+    double before = 0, after = 0;
+    for (std::size_t i = 0; i < 2; ++i) {
+      before += std::pow(costs_[index(old[i])], 2);
+      after += std::pow(cost_of(now[i]), 2);
+    }
+    if (!(after < 0.98 * before) || !stays_near(old, now, {{c, d}})) return false;
+    t_.mesh.flip(h);
+    update(old, old);
+    return true;
+  }
+
+  bool try_collapse(int h) {
+    const int u = t_.mesh.from(h), v = t_.mesh.to(h);
+    if (t_.on_boundary[index(u)] || !can_collapse(t_, h)) return false;
+    std::vector<int> old, kept;
+    std::vector<Corners> now;
+    std::vector<std::array<int, 2>> edges;
+    double before = 0, after = 0, worst_before = 0, worst_after = 0;
+    t_.mesh.around(u, [&](int g) {
+      const int f = ClosedMesh::triangle_of(g), a = t_.mesh.to(g), b = t_.mesh.apex(g);
+      old.push_back(f);
+      before += std::pow(costs_[index(f)], 2);
+      worst_before = std::max(worst_before, costs_[index(f)]);
       if (a == v || b == v) return;
-      const int x = a == t.apex ? b : a;
-      for (const Layer& layer : t.layers) {
-        ok = ok &&
-             point_segment_distance(layer.lifted[index(u)], layer.lifted[index(v)],
-                                    layer.lifted[index(x)]) <= tolerance * layer.atlas.diagonal;
-      }
-      return;
-    }
-    const double old = badness(t, f).sum;
-    before += old;
-    ++count_before;
-    worst_before = std::max(worst_before, old);
-    if (a == v || b == v) return;
-    outer.push_back({a, b});
-    const double now = badness(t, v, a, b).sum;
-    after += now;
-    ++count_after;
-    worst_after = std::max(worst_after, now);
-  });
-  if (!ok || count_after == 0) return false;
-  if (!(worst_after < 0.8 * worst_before && after / count_after < before / count_before))
-    return false;
-  for (const Layer& layer : t.layers) {
-    double nearest = std::numeric_limits<double>::infinity();
-    for (const auto& [a, b] : outer) {
-      nearest = std::min(nearest,
-                         point_triangle_distance(layer.lifted[index(u)], layer.lifted[index(v)],
-                                                 layer.lifted[index(a)], layer.lifted[index(b)]));
-    }
-    if (nearest > tolerance * layer.atlas.diagonal) return false;
+      kept.push_back(f);
+      now.push_back({v, a, b});
+      edges.push_back({v, a});
+      const double cost = cost_of(now.back());
+      after += cost * cost;
+      worst_after = std::max(worst_after, cost);
+    });
+    if (!(after < before && worst_after < 0.9 * worst_before)) return false;
+    if (!stays_near(old, now, edges)) return false;
+    collapse(t_, h);
+    update(old, kept);
+    return true;
   }
-  collapse(t, h);
-  return true;
-}
 
-bool try_move(LayeredTriangulation& t, int v, std::mt19937& random) {
-  if (t.is_fixed[index(v)]) return false;
-  bool moved = false;
-  std::vector<std::array<int, 2>> ring;
-  t.mesh.around(v, [&](int h) { ring.push_back({t.mesh.to(h), t.mesh.apex(h)}); });
-  const auto star_badness = [&] {
-    double sum = 0;
-    t.mesh.around(v, [&](int h) { sum += badness(t, ClosedMesh::triangle_of(h)).sum; });
-    return sum;
-  };
-  const auto uniform = [&] { return (random() >> 5) * (1.0 / 134217728.0); };
-  double best = star_badness();
-  for (Layer& layer : t.layers) {
-    const Vector3d place = layer.sphere[index(v)];
-    Vector3d best_place = place;
-    Vector3d best_lifted = layer.lifted[index(v)];
-    int best_triangle = layer.triangle[index(v)];
-    const double start = best;
-    for (int i = 0; i < 24; ++i) {
-      Vector3d target = Vector3d::Zero();
-      double weight = 0;
-      for (const auto& [a, b] : ring) {
-        if (a == t.apex || (t.on_boundary[index(v)] && !t.on_boundary[index(a)])) continue;
-        const double w = -std::log(uniform() + 1e-12);
-        target += w * layer.sphere[index(a)];
-        weight += w;
+  bool try_move(int v) {
+    if (t_.is_fixed[index(v)] || t_.on_boundary[index(v)]) return false;
+    std::vector<int> star;
+    std::vector<Corners> ring;
+    std::vector<std::array<int, 2>> edges;
+    std::vector<std::vector<LayerTriangle>> shapes;
+    bool is_on_hard_edge = false;
+    t_.mesh.around(v, [&](int h) {
+      star.push_back(ClosedMesh::triangle_of(h));
+      ring.push_back({v, t_.mesh.to(h), t_.mesh.apex(h)});
+      edges.push_back({v, t_.mesh.to(h)});
+      is_on_hard_edge |= t_.is_hard(h);
+      std::vector<LayerTriangle>& layers = shapes.emplace_back();
+      for (const Layer& layer : t_.layers) {
+        layers.push_back(layer_triangle(layer, ring.back()[0], ring.back()[1], ring.back()[2]));
       }
-      if (weight == 0) break;
-      const double u = std::pow(uniform(), 1.5);
-      const Vector3d next = ((1 - u) * place + u * target / weight).normalized();
-      bool ok = true;
-      for (const auto& [a, b] : ring) {
-        ok = ok && is_positive(next, layer.sphere[index(a)], layer.sphere[index(b)]);
-      }
-      if (!ok) continue;
-      lift(layer, v, next, best_triangle);
-      const double now = star_badness();
-      if (now < best - 1e-3) {
-        best = now;
-        best_place = next;
-        best_lifted = layer.lifted[index(v)];
-        best_triangle = layer.triangle[index(v)];
-      }
-    }
-    layer.sphere[index(v)] = best_place;
-    layer.lifted[index(v)] = best_lifted;
-    layer.triangle[index(v)] = best_triangle;
-    moved |= best < start - 1e-3;
+    });
+    if (is_on_hard_edge) return false;
+    bool moved = false;
+    for (std::size_t s = 0; s < t_.layers.size(); ++s)
+      moved |= move_in(s, v, star, ring, edges, shapes);
+    return moved;
   }
-  return moved;
-}
+
+  double sum_of_squares(const std::vector<std::vector<LayerTriangle>>& shapes) const {
+    double sum = 0;
+    int folds = 0;
+    for (const std::vector<LayerTriangle>& layers : shapes) {
+      sum += std::pow(triangle_cost(layers, folds), 2);
+    }
+    return sum;
+  }
+
+  /// A random place between a vertex and its ring.
+  Vector3d random_place(const Layer& layer, int v, const std::vector<Corners>& ring) {
+    // Not std's distributions, whose numbers differ from library to library.
+    const auto uniform = [&] { return (random_() >> 5) * (1.0 / 134217728.0); };
+    Vector3d target = Vector3d::Zero();
+    double weight = 0;
+    for (const Corners& corners : ring) {
+      const double w = -std::log(uniform() + 1e-12);
+      target += w * layer.sphere[index(corners[1])];
+      weight += w;
+    }
+    const double u = std::pow(uniform(), 1.5);
+    return ((1 - u) * layer.sphere[index(v)] + u * target / weight).normalized();
+  }
+
+  bool move_in(std::size_t s, int v, const std::vector<int>& star, const std::vector<Corners>& ring,
+               const std::vector<std::array<int, 2>>& edges,
+               std::vector<std::vector<LayerTriangle>>& shapes) {
+    Layer& layer = t_.layers[s];
+    const Vector3d place = layer.sphere[index(v)], lifted = layer.lifted[index(v)];
+    const int triangle = layer.triangle[index(v)];
+    double best = 0.98 * sum_of_squares(shapes);
+    bool moved = false;
+    const std::vector<Vector3d> around = samples(s, star, {});
+    const double bound = std::max(tolerance_, largest_distance(s, around, ring));
+    const double off_bound = std::max(tolerance_, stand_off(s, ring, edges));
+    Vector3d best_place;
+    std::vector<std::vector<LayerTriangle>> best_shapes = shapes, tried = shapes;
+    for (int i = 0; i < kMoves; ++i) {
+      layer.sphere[index(v)] = place;
+      const Vector3d next = random_place(layer, v, ring);
+      const bool is_open = std::all_of(ring.begin(), ring.end(), [&](const Corners& c) {
+        return is_positive(next, layer.sphere[index(c[1])], layer.sphere[index(c[2])]);
+      });
+      if (!is_open) continue;
+      lift(layer, v, next, triangle);
+      for (std::size_t j = 0; j < ring.size(); ++j) {
+        tried[j][s] = layer_triangle(layer, v, ring[j][1], ring[j][2]);
+      }
+      const double now = sum_of_squares(tried);
+      if (!(now < best)) continue;
+      if (largest_distance(s, around, ring) > bound ||
+          largest_distance(s, samples(s, {}, edges), ring) > bound ||
+          stand_off(s, ring, edges) > off_bound) {
+        continue;
+      }
+      best = now;
+      best_place = next;
+      best_shapes = tried;
+      moved = true;
+    }
+    if (moved) {
+      lift(layer, v, best_place, triangle);
+      shapes = best_shapes;
+      update(star, star);
+    } else {
+      layer.sphere[index(v)] = place;
+      layer.lifted[index(v)] = lifted;
+      layer.triangle[index(v)] = triangle;
+    }
+    return moved;
+  }
+
+  LayeredTriangulation& t_;
+  SourcePoints& points_;
+  double tolerance_;
+  std::vector<std::vector<std::vector<int>>> below_;  ///< layer, triangle: source vertices
+  std::vector<double> costs_;                         ///< one a triangle slot
+  std::mt19937 random_{1};
+};
 
 }  // namespace
 
 int count_folds(const LayeredTriangulation& t) {
-  int folds = 0;
+  int all = 0;
   for (int f = 0; f < t.mesh.triangle_slots(); ++f) {
-    if (t.mesh.has_triangle(f)) folds += badness(t, f).folds;
+    int folds = 0;
+    if (t.mesh.has_triangle(f)) triangle_cost(t, f, folds);
+    all += folds;
   }
-  return folds;
+  return all;
 }
 
-int repair(LayeredTriangulation& t, double tolerance, double threshold) {
-  std::mt19937 random(1);
-  std::vector<double> bad(index(t.mesh.triangle_slots()), 0);
-  tbb::parallel_for(0, t.mesh.triangle_slots(), [&](int f) {
-    if (t.mesh.has_triangle(f)) bad[index(f)] = badness(t, f).sum;
-  });
-  int count = 0;
-  for (int f = 0; f < static_cast<int>(bad.size()); ++f) {
-    if (!(bad[index(f)] > threshold) || !t.mesh.has_triangle(f)) continue;
-    if (!(badness(t, f).sum > threshold)) continue;
-    ++count;
-    const std::array corners{t.mesh.from(3 * f), t.mesh.from(3 * f + 1), t.mesh.from(3 * f + 2)};
-    bool done = false;
-    for (int k = 0; k < 3 && !done; ++k) done = try_flip(t, 3 * f + k, tolerance);
-    for (int k = 0; k < 3 && !done; ++k) {
-      const int h = 3 * f + k;
-      done = try_collapse(t, h, tolerance) || try_collapse(t, t.mesh.opposite(h), tolerance);
-    }
-    for (std::size_t k = 0; k < 3 && !done; ++k) {
-      if (t.mesh.has_vertex(corners[k])) try_move(t, corners[k], random);
-    }
+Repaired repair(LayeredTriangulation& t, SourcePoints& points, double tolerance, double threshold) {
+  constexpr int kPasses = 12;
+  source_errors(t, points);  // finds where the source vertices lie now
+  Repair repair(t, points, tolerance);
+  Repaired all;
+  for (int pass = 0; pass < kPasses; ++pass) {
+    const Repaired one = repair.pass(threshold);
+    all.bad = one.bad;
+    all.changes += one.changes;
+    if (one.changes == 0) break;
   }
-  return count;
+  return all;
 }
 
 }  // namespace morphbake

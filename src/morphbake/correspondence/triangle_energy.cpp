@@ -25,12 +25,11 @@ struct TwiceArea {
   Vector3d derivative;
 };
 
-TwiceArea seen_area(const RestTriangle& rest, const Vector3d& normal, const Vector3d& a,
-                    const Vector3d& b, const Vector3d& c) {
-  const double s = normal.dot((b - a).cross(c - a));
-  const double e = 0.05 * 2 * rest.area;
-  const double root = std::sqrt(s * s + 4 * e * e);
-  return {0.5 * (s + root), 0.5 * (1 + s / root) * (b - c).cross(normal)};
+TwiceArea seen_area(const SurfaceTriangle& triangle, const Vector3d& a, const Vector3d& b,
+                    const Vector3d& c) {
+  const double s = triangle.normal.dot((b - a).cross(c - a));
+  const double root = std::sqrt(s * s + 4 * triangle.slack * triangle.slack);
+  return {0.5 * (s + root), 0.5 * (1 + s / root) * (b - c).cross(triangle.normal)};
 }
 
 /// Q (1 + 4 A^2 / d^2) and its derivatives; that d is not quite linear in `a` is left out of the
@@ -110,16 +109,16 @@ RestTriangle rest_triangle(const Vector3d& squared_lengths, const RestLimits& li
                         limits.area);
 }
 
-double surface_energy(const RestTriangle& rest, const Vector3d& normal, const Vector3d& a,
-                      const Vector3d& b, const Vector3d& c) {
-  const double r = 2 * rest.area / seen_area(rest, normal, a, b, c).value;
-  return dirichlet(rest, a, b, c) * (1 + r * r);
+double surface_energy(const SurfaceTriangle& triangle, const Vector3d& a, const Vector3d& b,
+                      const Vector3d& c) {
+  const double r = 2 * triangle.rest.area / seen_area(triangle, a, b, c).value;
+  return dirichlet(triangle.rest, a, b, c) * (1 + r * r);
 }
 
-void add_surface_energy(const RestTriangle& rest, const Vector3d& normal,
-                        const std::array<Vector3d, 3>& corners, double weight, CornerEnergy& sum) {
+void add_surface_energy(const SurfaceTriangle& triangle, const std::array<Vector3d, 3>& corners,
+                        double weight, CornerEnergy& sum) {
   const auto& [a, b, c] = corners;
-  add_energy(rest, corners, seen_area(rest, normal, a, b, c), weight, sum);
+  add_energy(triangle.rest, corners, seen_area(triangle, a, b, c), weight, sum);
 }
 
 TangentAxes tangent_axes(const Vector3d& p) {

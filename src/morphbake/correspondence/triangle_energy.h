@@ -64,18 +64,26 @@ void add_sphere_energy(const RestTriangle& rest, const Eigen::Vector3d& a, const
 /// metrics.
 RestTriangle rest_triangle(const Eigen::Vector3d& squared_lengths, const RestLimits& limits);
 
+/// A triangle on a surface in space: what its energy needs besides its corners.
+struct SurfaceTriangle {
+  RestTriangle rest;
+  Eigen::Vector3d normal = Eigen::Vector3d::Zero();  ///< unit, of the surface below
+  double slack = 0;  ///< twice the area that a triangle keeps in the energy when it stands up; a
+                     ///< part of its present size, for against a fixed size it could vanish freely
+};
+
 /// Symmetric Dirichlet energy of the map from a rest triangle to (a, b, c) in space, whose area is
 /// what a surface with this unit normal sees of it.
 ///
-/// E = Q (1 + 4 A^2 / x(s)^2), s = normal . (b - a) x (c - a), x(s) = (s + sqrt(s^2 + 4 e^2)) / 2:
+/// E = Q (1 + 4 A^2 / x(s)^2), s = normal . (b - a) x (c - a), x(s) = (s + sqrt(s^2 + 4 slack^2)) / 2:
 /// a triangle that lies flat on the surface has the usual energy, one that stands up or is folded
 /// over has much, but finite energy, which leads it back.
 /// @see Garanzha et al. 2021 (foldover-free maps) for x(s)
-double surface_energy(const RestTriangle& rest, const Eigen::Vector3d& normal,
-                      const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c);
+double surface_energy(const SurfaceTriangle& triangle, const Eigen::Vector3d& a,
+                      const Eigen::Vector3d& b, const Eigen::Vector3d& c);
 
 /// Adds `weight` times the energy and its derivatives by `a`.
-void add_surface_energy(const RestTriangle& rest, const Eigen::Vector3d& normal,
+void add_surface_energy(const SurfaceTriangle& triangle,
                         const std::array<Eigen::Vector3d, 3>& corners, double weight,
                         CornerEnergy& sum);
 
