@@ -9,7 +9,7 @@ namespace {
 
 using ModuleExitCode = std::pair<std::string_view, ExitCode>;
 
-constexpr std::array<ModuleExitCode, 22> kExitCodes = {{
+constexpr std::array<ModuleExitCode, 23> kExitCodes = {{
     {"usage", ExitCode::Recipe},
     {"options", ExitCode::Recipe},
     {"landmarks", ExitCode::Recipe},
@@ -22,6 +22,7 @@ constexpr std::array<ModuleExitCode, 22> kExitCodes = {{
     {"sources", ExitCode::SourceMesh},
     {"image", ExitCode::SourceMesh},
     {"images", ExitCode::SourceMesh},
+    {"correspondence", ExitCode::SourceMesh},
     {"connectivity", ExitCode::SourceMesh},
     {"differential", ExitCode::Numerical},
     {"linear", ExitCode::Numerical},

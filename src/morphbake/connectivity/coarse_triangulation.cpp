@@ -100,6 +100,7 @@ LayeredTriangulation coarse_triangulation(const std::vector<SphericalMap>& maps,
                          std::vector<char>(index(living), 0),
                          std::vector<char>(index(living), 0),
                          capped.apex < 0 ? -1 : number[index(capped.apex)],
+                         {},
                          {}};
   for (int v = 0; v < layout.mesh.vertex_slots(); ++v) {
     if (number[index(v)] < 0) continue;
@@ -119,6 +120,7 @@ LayeredTriangulation coarse_triangulation(const std::vector<SphericalMap>& maps,
   for (std::size_t l = 0; l < capped.landmarks.size(); ++l) {
     const auto n = index(number[index(capped.landmarks[l])]);
     t.is_fixed[n] = 1;
+    t.landmarks.push_back(static_cast<int>(n));
     for (Layer& layer : t.layers) {  // exactly, not to rounding
       const auto v = index(layer.atlas.map->landmarks[l]);
       layer.triangle[n] = layer.atlas.triangle_of_vertex[v];

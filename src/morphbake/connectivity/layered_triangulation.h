@@ -25,9 +25,10 @@ struct Layer {
 struct LayeredTriangulation {
   ClosedMesh mesh;
   std::vector<Layer> layers;
-  std::vector<char> is_fixed;                    ///< #V: landmarks and the apex
-  std::vector<char> on_boundary;                 ///< #V
-  int apex = -1;                                 ///< of disks
+  std::vector<char> is_fixed;     ///< #V: landmarks and the apex
+  std::vector<char> on_boundary;  ///< #V
+  int apex = -1;                  ///< of disks
+  std::vector<int> landmarks;
   std::unordered_set<std::uint64_t> hard_edges;  ///< keys of edge_key
 
   static std::size_t index(int i) { return static_cast<std::size_t>(i); }

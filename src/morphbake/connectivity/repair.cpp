@@ -18,6 +18,7 @@ namespace {
 using Corners = std::array<int, 3>;
 using Eigen::Vector3d;
 
+constexpr int kTries = 2;   // of a triangle until something around it changes
 constexpr int kMoves = 24;  // places tried for a vertex on each layer
 
 std::size_t index(int i) { return static_cast<std::size_t>(i); }
@@ -39,6 +40,7 @@ class Repair {
       }
     }
     costs_.resize(index(t.mesh.triangle_slots()), 0);
+    failures_.resize(costs_.size(), 0);
     tbb::parallel_for(0, t.mesh.triangle_slots(), [&](int f) {
       int folds = 0;
       if (t_.mesh.has_triangle(f)) costs_[index(f)] = triangle_cost(t_, f, folds);
@@ -56,7 +58,11 @@ class Repair {
     std::sort(bad.begin(), bad.end());
     repaired.bad = static_cast<int>(bad.size());
     for (const auto& [cost, f] : bad) {
-      if (t_.mesh.has_triangle(f) && costs_[index(f)] > threshold) repaired.changes += better(f);
+      if (!t_.mesh.has_triangle(f) || !(costs_[index(f)] > threshold)) continue;
+      if (failures_[index(f)] >= kTries) continue;
+      const int changed = better(f);
+      repaired.changes += changed;
+      if (!changed) ++failures_[index(f)];
     }
     return repaired;
   }
@@ -114,8 +120,7 @@ class Repair {
     const Layer& layer = t_.layers[s];
     const auto off = [&](const Vector3d& place, const Vector3d& chord, int near_vertex) {
       const int f = layer.atlas.locate(place.normalized(), layer.triangle[index(near_vertex)]);
-      const Vector3d below =
-          layer.atlas.position(f, layer.atlas.weights_at(place.normalized(), f));
+      const Vector3d below = layer.atlas.position(f, layer.atlas.weights_at(place.normalized(), f));
       return std::abs((chord - below).dot(layer.atlas.normals[index(f)]));
     };
     double largest = 0;
@@ -187,7 +192,10 @@ class Repair {
         points_.triangle[s][index(v)] = best;
       }
     }
-    for (const int f : new_triangles) costs_[index(f)] = cost_of(corners_of(t_, f));
+    for (const int f : new_triangles) {
+      costs_[index(f)] = cost_of(corners_of(t_, f));
+      failures_[index(f)] = 0;
+    }
   }
 
   bool try_flip(int h) {
@@ -270,7 +278,7 @@ class Repair {
   /// A random place between a vertex and its ring.
   Vector3d random_place(const Layer& layer, int v, const std::vector<Corners>& ring) {
     // Not std's distributions, whose numbers differ from library to library.
-    const auto uniform = [&] { return (random_() >> 5) * (1.0 / 134217728.0); };
+    const auto uniform = [&] { return static_cast<double>(random_() >> 5) / 134217728; };
     Vector3d target = Vector3d::Zero();
     double weight = 0;
     for (const Corners& corners : ring) {
@@ -335,20 +343,11 @@ class Repair {
   double tolerance_;
   std::vector<std::vector<std::vector<int>>> below_;  ///< layer, triangle: source vertices
   std::vector<double> costs_;                         ///< one a triangle slot
+  std::vector<int> failures_;  ///< one a triangle slot: tries in vain since something changed
   std::mt19937 random_{1};
 };
 
 }  // namespace
-
-int count_folds(const LayeredTriangulation& t) {
-  int all = 0;
-  for (int f = 0; f < t.mesh.triangle_slots(); ++f) {
-    int folds = 0;
-    if (t.mesh.has_triangle(f)) triangle_cost(t, f, folds);
-    all += folds;
-  }
-  return all;
-}
 
 Repaired repair(LayeredTriangulation& t, SourcePoints& points, double tolerance, double threshold) {
   constexpr int kPasses = 12;

@@ -7,9 +7,6 @@
 
 namespace morphbake {
 
-/// Triangles, over all layers, whose normal opposes that of the source below their middle.
-int count_folds(const LayeredTriangulation& t);
-
 /// What a repair found and did.
 struct Repaired {
   int bad = 0;      ///< triangles worse than the threshold before the last pass

@@ -155,8 +155,10 @@ std::vector<SphereLayout> lay_out(const std::vector<SourceSurface>& sources,
       "wrongly on some source (left for right, front for hind)"});
 }
 
-SphericalMap map_of(const CappedSurface& capped, const SphereLayout& layout) {
+SphericalMap map_of(const SourceSurface& source, const CappedSurface& capped,
+                    const SphereLayout& layout) {
   SphericalMap map;
+  map.source_triangles = source.mesh.triangles;
   const Eigen::Index vertices = capped.positions.rows() - (capped.apex >= 0 ? 1 : 0);
   const Eigen::Index triangles = capped.triangles.rows() - capped.cap_triangles;
   map.surface = {capped.positions.topRows(vertices), capped.triangles.topRows(triangles)};
@@ -214,7 +216,8 @@ std::vector<SphericalMap> map_to_sphere(const std::vector<SourceSurface>& source
   });
   advance(observer, {"correspondence", 3, kSteps});
   std::vector<SphericalMap> maps;
-  for (std::size_t s = 0; s < sources.size(); ++s) maps.push_back(map_of(capped[s], layouts[s]));
+  for (std::size_t s = 0; s < sources.size(); ++s)
+    maps.push_back(map_of(sources[s], capped[s], layouts[s]));
   verify(sources, maps, capped[0].apex >= 0);
   advance(observer, {"correspondence", kSteps, kSteps});
   return maps;

@@ -17,11 +17,15 @@ struct SphericalMap {
   Mesh surface;                             ///< scene space
   std::vector<SurfacePoint> on_source;      ///< #V: where each vertex lies on SourceSurface::mesh
   std::vector<int> source_triangle;         ///< #F: triangle of SourceSurface::mesh it lies in
+  Triangles source_triangles;               ///< SourceSurface::mesh.triangles
   Positions sphere;                         ///< #V by 3, unit length; z = 0 on the boundary
   std::vector<char> on_boundary;            ///< #V
   std::vector<int> landmarks;               ///< vertex of each landmark, in the sources' order
   std::vector<Eigen::Vector2i> hard_edges;  ///< a < b
 };
+
+/// The point of a source's mesh at barycentric `weights` in a triangle of its map's surface.
+SurfacePoint point_on_source(const SphericalMap& map, int triangle, const Eigen::Vector3d& weights);
 
 /// Lays all sources on one sphere, on which equal landmarks coincide exactly.
 ///

@@ -75,9 +75,9 @@ struct SurfaceTriangle {
 /// Symmetric Dirichlet energy of the map from a rest triangle to (a, b, c) in space, whose area is
 /// what a surface with this unit normal sees of it.
 ///
-/// E = Q (1 + 4 A^2 / x(s)^2), s = normal . (b - a) x (c - a), x(s) = (s + sqrt(s^2 + 4 slack^2)) / 2:
-/// a triangle that lies flat on the surface has the usual energy, one that stands up or is folded
-/// over has much, but finite energy, which leads it back.
+/// E = Q (1 + 4 A^2 / x(s)^2), s = normal . (b - a) x (c - a), x(s) = (s + sqrt(s^2 + 4 slack^2)) /
+/// 2: a triangle that lies flat on the surface has the usual energy, one that stands up or is
+/// folded over has much, but finite energy, which leads it back.
 /// @see Garanzha et al. 2021 (foldover-free maps) for x(s)
 double surface_energy(const SurfaceTriangle& triangle, const Eigen::Vector3d& a,
                       const Eigen::Vector3d& b, const Eigen::Vector3d& c);
