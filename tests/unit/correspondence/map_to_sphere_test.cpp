@@ -1,0 +1,181 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "morphbake/connectivity/shared_triangulation.h"
+#include "morphbake/correspondence/check_map.h"
+#include "morphbake/correspondence/spherical_map.h"
+#include "morphbake/diagnostics/problem.h"
+#include "shapes/shapes.h"
+
+namespace morphbake {
+namespace {
+
+/// The triangle whose middle lies furthest in a direction, with unequal weights: inside of it.
+SurfacePoint furthest(const Mesh& mesh, const Eigen::Vector3d& direction) {
+  SurfacePoint point;
+  double best = -1e300;
+  for (int f = 0; f < mesh.triangles.rows(); ++f) {
+    double along = 0;
+    for (int k = 0; k < 3; ++k) along += mesh.positions.row(mesh.triangles(f, k)).dot(direction);
+    if (along <= best) continue;
+    best = along;
+    point = {f, {0.5, 0.3, 0.2}};
+  }
+  return point;
+}
+
+SourceSurface surface(const std::string& name, const Mesh& mesh,
+                      const std::vector<Eigen::Vector3d>& directions) {
+  SourceSurface source;
+  source.name = source.file = name;
+  source.mesh = mesh;
+  for (const Eigen::Vector3d& direction : directions) {
+    source.landmark_names.push_back("point " + std::to_string(source.landmarks.size()));
+    source.landmarks.push_back(furthest(mesh, direction));
+  }
+  return source;
+}
+
+const std::vector<Eigen::Vector3d> kAxes{
+    {1, 0.1, 0.2}, {-0.2, 1, 0.1}, {0.1, 0.2, 1}, {-1, 0.2, -0.1}};
+
+std::vector<SourceSurface> two_spheres() {
+  Mesh bent = test::sphere(17, 23);
+  bent.positions = test::bent(bent.positions, 0.2, 7);
+  bent.positions.col(1) *= 1.5;
+  return {surface("even", test::sphere(12, 16), kAxes), surface("bent", bent, kAxes)};
+}
+
+std::string code_of(const std::vector<SourceSurface>& sources) {
+  try {
+    map_to_sphere(sources, {});
+  } catch (const BakeError& error) {
+    return error.problems().front().code;
+  }
+  return "";
+}
+
+TEST(MapToSphere, RefusesHandlesPiecesAndHoles) {
+  std::vector<SourceSurface> sources = two_spheres();
+  sources[1] = surface("torus", test::torus(12, 16), kAxes);
+  EXPECT_EQ(code_of(sources), "correspondence.handles");
+  sources[1] = surface("two", test::joined(test::sphere(5, 6), test::tetrahedron()), kAxes);
+  EXPECT_EQ(code_of(sources), "correspondence.pieces");
+  sources[1] = surface("disk", test::grid(6, 6), kAxes);
+  EXPECT_EQ(code_of(sources), "correspondence.different-topology");
+}
+
+TEST(MapToSphere, NamesAMirrorImage) {
+  std::vector<SourceSurface> sources = two_spheres();
+  sources[1] = surface("mirrored", test::sphere(17, 23),
+                       {{-1, 0.1, 0.2}, {0.2, 1, 0.1}, {-0.1, 0.2, 1}, {1, 0.2, -0.1}});
+  EXPECT_EQ(code_of(sources), "correspondence.mirrored");
+}
+
+TEST(MapToSphere, RefusesLandmarksInOnePlace) {
+  std::vector<SourceSurface> sources = two_spheres();
+  sources[0].landmarks[1] = sources[0].landmarks[0];
+  EXPECT_EQ(code_of(sources), "correspondence.same-landmark");
+}
+
+TEST(MapToSphere, LaysClosedSurfacesBijectively) {
+  const std::vector<SourceSurface> sources = two_spheres();
+  const std::vector<SphericalMap> maps = map_to_sphere(sources, {});
+  for (std::size_t s = 0; s < 2; ++s) {
+    const SphereCheck check = check_sphere(maps[s].sphere, maps[s].surface.triangles, false);
+    EXPECT_EQ(check.turned, 0);
+    EXPECT_NEAR(check.degree, 1, 1e-9);
+    // Landmarks are new vertices inside of triangles.
+    EXPECT_EQ(maps[s].surface.positions.rows(), sources[s].mesh.positions.rows() + 4);
+    for (std::size_t l = 0; l < 4; ++l) {
+      EXPECT_EQ(maps[s].sphere.row(maps[s].landmarks[l]), maps[0].sphere.row(maps[0].landmarks[l]));
+    }
+  }
+}
+
+void expect_shared(const std::vector<SourceSurface>& sources, const SharedTriangulation& shared,
+                   bool is_disk) {
+  for (std::size_t s = 0; s < sources.size(); ++s) {
+    const SphereCheck check =
+        check_sphere(shared.sphere[s], shared.connectivity.triangles, is_disk);
+    EXPECT_EQ(check.turned, 0);
+    EXPECT_NEAR(check.degree, 1, 1e-9);
+    for (int v = 0; v < shared.connectivity.vertex_count; ++v) {
+      const SurfacePoint& at = shared.on_source[s][static_cast<std::size_t>(v)];
+      ASSERT_NEAR(at.barycentric.sum(), 1, 1e-12);
+      Eigen::RowVector3d there = Eigen::RowVector3d::Zero();
+      for (int k = 0; k < 3; ++k) {
+        there += at.barycentric(k) *
+                 sources[s].mesh.positions.row(sources[s].mesh.triangles(at.triangle, k));
+      }
+      ASSERT_LT((there - shared.geometries[s].row(v)).norm(), 1e-12);
+    }
+    for (std::size_t l = 0; l < shared.landmarks.size(); ++l) {
+      const SurfacePoint& at = sources[s].landmarks[l];
+      Eigen::RowVector3d there = Eigen::RowVector3d::Zero();
+      for (int k = 0; k < 3; ++k) {
+        there += at.barycentric(k) *
+                 sources[s].mesh.positions.row(sources[s].mesh.triangles(at.triangle, k));
+      }
+      EXPECT_LT((there - shared.geometries[s].row(shared.landmarks[l])).norm(), 1e-12);
+    }
+  }
+}
+
+TEST(Triangulate, LiesOnClosedSourcesAndMeetsLandmarksExactly) {
+  const std::vector<SourceSurface> sources = two_spheres();
+  RemeshOptions options;
+  options.max_error = 0.005;
+  options.target_edge_length = 0.1;
+  const std::vector<SphericalMap> maps = map_to_sphere(sources, {});
+  const SharedTriangulation shared = triangulate(maps, options, {});
+  expect_shared(sources, shared, false);
+  const SharedTriangulation again = triangulate(maps, options, {});
+  EXPECT_EQ(again.geometries[1], shared.geometries[1]);  // the same bytes each time
+}
+
+TEST(Triangulate, KeepsTheBorderOfDisksOnTheBorder) {
+  Mesh dome = test::grid(14, 14);
+  for (int v = 0; v < dome.positions.rows(); ++v) {
+    dome.positions(v, 2) =
+        4 * std::exp(-(dome.positions.row(v).head(2).array() - 6.5).square().sum() / 12);
+  }
+  std::vector<SourceSurface> sources{surface("flat", test::grid(9, 9), {}),
+                                     surface("dome", dome, {})};
+  for (SourceSurface& source : sources) {
+    const Eigen::RowVector3d size = source.mesh.positions.colwise().maxCoeff();
+    for (const Eigen::Vector2d& at :
+         {Eigen::Vector2d(0.3, 0.3), Eigen::Vector2d(0.7, 0.35), Eigen::Vector2d(0.4, 0.7)}) {
+      double nearest = 1e300;
+      SurfacePoint point;
+      for (int f = 0; f < source.mesh.triangles.rows(); ++f) {
+        Eigen::Vector2d middle = Eigen::Vector2d::Zero();
+        for (int k = 0; k < 3; ++k) {
+          middle += source.mesh.positions.row(source.mesh.triangles(f, k)).head(2).transpose() / 3;
+        }
+        const double away = (middle - at * size(0)).norm();
+        if (away < nearest) point = {f, Eigen::Vector3d::Constant(1.0 / 3)};
+        nearest = std::min(nearest, away);
+      }
+      source.landmark_names.push_back("point " + std::to_string(source.landmarks.size()));
+      source.landmarks.push_back(point);
+    }
+  }
+  RemeshOptions options;
+  options.max_error = 0.005;
+  options.target_edge_length = 0.1;
+  const SharedTriangulation shared = triangulate(map_to_sphere(sources, {}), options, {});
+  expect_shared(sources, shared, true);
+  int border = 0;
+  for (int v = 0; v < shared.connectivity.vertex_count; ++v) {
+    if (!shared.on_boundary[static_cast<std::size_t>(v)]) continue;
+    ++border;
+    const Eigen::RowVector3d p = shared.geometries[0].row(v);  // the flat one: a square of side 8
+    EXPECT_LT(std::min({p.x(), p.y(), 8 - p.x(), 8 - p.y()}), 1e-12);
+  }
+  EXPECT_GE(border, 8);
+}
+
+}  // namespace
+}  // namespace morphbake
