@@ -16,6 +16,10 @@ namespace {
 
 constexpr int kPlaces = 3;  // how many places a message names
 
+constexpr const char* kRemeshHint =
+    "give them new triangles that fit all: \"connectivity\": {\"mode\": \"remesh\"}; or export "
+    "poses or sculpts of one mesh alike";
+
 [[noreturn]] void fail(const SourceMesh& source, const std::string& code,
                        const std::string& message, const std::string& hint) {
   const std::string pointer = fmt::format("/meshes/{}", source.geometry.mesh);
@@ -61,7 +65,7 @@ void check_triangle_counts(const SourceMesh& first, const SourceMesh& other) {
   fail(other, "connectivity.different-triangles",
        fmt::format("\"{}\" has {} triangles but \"{}\" has {}", other.name, other.triangles.rows(),
                    first.name, first.triangles.rows()),
-       "sources must share one connectivity: poses or sculpts of one mesh, exported alike");
+       kRemeshHint);
 }
 
 /// The welded surfaces agree when a vertex of one is always the same vertex of the other.
@@ -79,8 +83,7 @@ void check_same_topology(const SourceMesh& first, const SourceMesh& other,
   fail(other, "connectivity.different-topology",
        fmt::format("\"{}\" and \"{}\" are not connected alike: first at triangles {}", other.name,
                    first.name, fmt::join(places, ", ")),
-       "sources must share one connectivity and face order: poses or sculpts of one mesh, exported "
-       "alike");
+       kRemeshHint);
 }
 
 /// Corner classes that hold in every source.

@@ -77,6 +77,9 @@ Shares read_shares(Reading& reading, const Json& shares, const std::string& poin
 /// The region that `parent` names in its field "region", or -1 (the whole surface).
 int read_region_field(Reading& reading, const Json& parent, const std::string& pointer);
 
+/// A whole number; one that is out of range, which the schema has reported, must not overflow.
+int whole_number(const Json& json);
+
 Ease ease_of(const Json& name);
 
 /// Index of the state called `name`; a source of that name becomes a state of its own. -1 after a
@@ -96,6 +99,7 @@ Eigen::Vector3d read_place(Reading& reading, const Json& at, int source,
                            const std::string& pointer);
 
 void read_sources(Reading& reading);
+void read_connectivity(Reading& reading);
 void read_regions(Reading& reading);
 void read_states(Reading& reading);
 void read_timeline(Reading& reading);

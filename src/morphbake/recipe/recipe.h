@@ -25,6 +25,25 @@ struct SourceRef {
   std::vector<NamedPosition> landmarks;
 };
 
+/// How the sources get one connectivity.
+enum class ConnectivityMode {
+  Shared,    ///< they have it already
+  Remesh,    ///< new triangles for any surfaces of one topological type
+  Resample,  ///< they have it already, and get a new one of another resolution
+};
+
+/// Where a new connectivity has its vertices: see Sizing of connectivity/remesh_options.h.
+enum class VertexSizing { Curvature, Uniform };
+
+/// The fields are those of RemeshOptions.
+struct ConnectivityRequest {
+  ConnectivityMode mode = ConnectivityMode::Shared;
+  double max_error = 0.002;
+  int max_vertices = 30000;
+  double target_edge_length = 0.03;
+  VertexSizing sizing = VertexSizing::Curvature;
+};
+
 /// How lengths in a recipe are meant.
 enum class Units { Diagonal, Scene };
 
@@ -145,6 +164,7 @@ struct Recipe {
   std::string name;
   Units units = Units::Diagonal;
   std::vector<SourceRef> sources;
+  ConnectivityRequest connectivity;
   std::vector<RegionOfInterest> regions;
   std::vector<State> states;
   Timeline timeline;

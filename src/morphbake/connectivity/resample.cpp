@@ -1,0 +1,272 @@
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/Polygon_mesh_processing/remesh.h>
+#include <CGAL/Surface_mesh.h>
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <utility>
+
+#include "morphbake/connectivity/landmark_vertices.h"
+#include "morphbake/connectivity/shared_triangulation.h"
+#include "morphbake/connectivity/surface_locator.h"
+#include "morphbake/diagnostics/problem.h"
+#include "morphbake/mesh/measures.h"
+
+namespace morphbake {
+namespace {
+
+using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+using Surface = CGAL::Surface_mesh<Kernel::Point_3>;
+using Vertex = Surface::Vertex_index;
+using Edge = Surface::Edge_index;
+using Face = Surface::Face_index;
+
+constexpr unsigned kIterations = 5;  // of splits, collapses, flips and smoothing
+constexpr int kRefinements = 6;      // the finest edges are target / 2^6
+constexpr int kNoLandmark = -1;
+
+/// The first source's surface on its way to the new connectivity. What must stay is marked on it,
+/// so that marks go through splits and through copies.
+struct Draft {
+  Surface surface;
+
+  Surface::Property_map<Edge, bool> hard() {
+    return surface.add_property_map<Edge, bool>("e:hard", false).first;
+  }
+
+  Surface::Property_map<Vertex, bool> fixed() {
+    return surface.add_property_map<Vertex, bool>("v:fixed", false).first;
+  }
+
+  Surface::Property_map<Vertex, int> landmark() {
+    return surface.add_property_map<Vertex, int>("v:landmark", kNoLandmark).first;
+  }
+};
+
+Draft draft_of(const LandmarkedMesh& from) {
+  Draft draft;
+  const Positions& positions = from.mesh.positions;
+  for (int v = 0; v < positions.rows(); ++v) {
+    draft.surface.add_vertex({positions(v, 0), positions(v, 1), positions(v, 2)});
+  }
+  const auto vertex = [](int v) { return Vertex(static_cast<unsigned>(v)); };
+  for (int f = 0; f < from.mesh.triangles.rows(); ++f) {
+    const auto corners = from.mesh.triangles.row(f);
+    draft.surface.add_face(vertex(corners(0)), vertex(corners(1)), vertex(corners(2)));
+  }
+  auto hard = draft.hard();
+  for (const Eigen::Vector2i& edge : from.hard_edges) {
+    hard[draft.surface.edge(draft.surface.halfedge(vertex(edge(0)), vertex(edge(1))))] = true;
+  }
+  auto fixed = draft.fixed();
+  auto landmark = draft.landmark();
+  for (std::size_t i = 0; i < from.landmarks.size(); ++i) {
+    fixed[vertex(from.landmarks[i])] = true;
+    landmark[vertex(from.landmarks[i])] = static_cast<int>(i);
+  }
+  return draft;
+}
+
+/// Borders and hard edges may be split but not shortened, so they keep their curves.
+void remesh_faces(Draft& draft, const std::vector<Face>& faces, double edge_length) {
+  namespace parameters = CGAL::parameters;
+  CGAL::Polygon_mesh_processing::isotropic_remeshing(
+      faces, edge_length, draft.surface,
+      parameters::number_of_iterations(kIterations)
+          .collapse_constraints(false)
+          .edge_is_constrained_map(draft.hard())
+          .vertex_is_constrained_map(draft.fixed()));
+  draft.surface.collect_garbage();
+}
+
+std::vector<Face> all_faces(const Draft& draft) {
+  return {draft.surface.faces_begin(), draft.surface.faces_end()};
+}
+
+/// The draft as plain data, each vertex found on the first source and carried to the others.
+SharedTriangulation carried(Draft& draft, const std::vector<SourceSurface>& surfaces,
+                            const SurfaceLocator& first) {
+  SharedTriangulation result;
+  const Surface& surface = draft.surface;
+  const auto landmark = draft.landmark();
+  result.landmarks.assign(surfaces[0].landmarks.size(), 0);
+  std::vector<SurfacePoint> points;
+  for (const Vertex v : surface.vertices()) {
+    const Kernel::Point_3& p = surface.point(v);
+    const int index = landmark[v];
+    if (index == kNoLandmark) {
+      points.push_back(first.closest({p.x(), p.y(), p.z()}));
+    } else {
+      result.landmarks[static_cast<std::size_t>(index)] = static_cast<int>(v.idx());
+      points.push_back(surfaces[0].landmarks[static_cast<std::size_t>(index)]);
+    }
+    result.on_boundary.push_back(surface.is_border(v) ? 1 : 0);
+  }
+  result.connectivity.vertex_count = static_cast<int>(surface.number_of_vertices());
+  result.connectivity.triangles.resize(static_cast<Eigen::Index>(surface.number_of_faces()), 3);
+  for (const Face f : surface.faces()) {
+    int k = 0;
+    for (const Vertex v : surface.vertices_around_face(surface.halfedge(f))) {
+      result.connectivity.triangles(static_cast<Eigen::Index>(f.idx()), k++) =
+          static_cast<int>(v.idx());
+    }
+  }
+  const auto hard = draft.hard();
+  for (const Edge e : surface.edges()) {
+    if (!hard[e]) continue;
+    const int a = static_cast<int>(surface.vertex(e, 0).idx());
+    const int b = static_cast<int>(surface.vertex(e, 1).idx());
+    result.hard_edges.emplace_back(std::min(a, b), std::max(a, b));
+  }
+  for (const SourceSurface& source : surfaces) {
+    Positions& geometry = result.geometries.emplace_back(result.connectivity.vertex_count, 3);
+    for (std::size_t v = 0; v < points.size(); ++v) {
+      geometry.row(static_cast<Eigen::Index>(v)) =
+          point_at(source.mesh.positions, source.mesh.triangles, points[v]);
+    }
+    result.on_source.push_back(points);
+  }
+  return result;
+}
+
+/// Smoothing leaves the first source a little; refinement must go on from it.
+void move_onto_source(Draft& draft, const SharedTriangulation& located) {
+  const Positions& positions = located.geometries[0];
+  for (const Vertex v : draft.surface.vertices()) {
+    const auto row = positions.row(static_cast<Eigen::Index>(v.idx()));
+    draft.surface.point(v) = Kernel::Point_3(row(0), row(1), row(2));
+  }
+}
+
+/// Marks the triangles of K that a source is further from than `tolerance`: at the middles of its
+/// triangles and edges, and at the source's vertices.
+void mark_coarse(const SourceSurface& source, const SurfaceLocator& on_source, const Mesh& k,
+                 double tolerance, std::vector<char>& is_coarse) {
+  for (int f = 0; f < k.triangles.rows(); ++f) {
+    Eigen::Vector3d corners[3];
+    for (int c = 0; c < 3; ++c) corners[c] = k.positions.row(k.triangles(f, c));
+    bool is_far = on_source.distance((corners[0] + corners[1] + corners[2]) / 3) > tolerance;
+    for (int c = 0; c < 3 && !is_far; ++c) {
+      is_far = on_source.distance((corners[c] + corners[(c + 1) % 3]) / 2) > tolerance;
+    }
+    if (is_far) is_coarse[static_cast<std::size_t>(f)] = 1;
+  }
+  const SurfaceLocator on_k(k);
+  for (int v = 0; v < source.mesh.positions.rows(); ++v) {
+    const Eigen::Vector3d position = source.mesh.positions.row(v);
+    const SurfacePoint nearest = on_k.closest(position);
+    const Eigen::Vector3d there = point_at(k.positions, k.triangles, nearest);
+    if ((there - position).norm() > tolerance) {
+      is_coarse[static_cast<std::size_t>(nearest.triangle)] = 1;
+    }
+  }
+}
+
+std::vector<char> coarse_triangles(
+    const std::vector<SourceSurface>& surfaces,
+    const std::vector<std::unique_ptr<SurfaceLocator>>& locators,
+    const SharedTriangulation& triangulation, double max_error) {
+  std::vector<char> is_coarse(
+      static_cast<std::size_t>(triangulation.connectivity.triangles.rows()), 0);
+  for (std::size_t s = 0; s < surfaces.size(); ++s) {
+    const Mesh k{triangulation.geometries[s], triangulation.connectivity.triangles};
+    const double tolerance = max_error * bounding_diagonal(surfaces[s].mesh.positions);
+    mark_coarse(surfaces[s], *locators[s], k, tolerance, is_coarse);
+  }
+  return is_coarse;
+}
+
+/// How many vertices an even triangulation of `area` has.
+double expected_vertices(double area, double edge_length) {
+  return area / (std::sqrt(3.0) / 2 * edge_length * edge_length);
+}
+
+void check_same_triangles(const std::vector<SourceSurface>& surfaces) {
+  for (const SourceSurface& other : surfaces) {
+    const Triangles& triangles = other.mesh.triangles;
+    const Triangles& first = surfaces[0].mesh.triangles;
+    if (triangles.rows() == first.rows() && triangles == first) continue;
+    throw BakeError(Problem{
+        Severity::Error,
+        "connectivity.different-triangles",
+        {other.file, "", 0, 0},
+        fmt::format("\"{}\" and \"{}\" do not share their triangles, so they cannot be resampled",
+                    other.name, surfaces[0].name),
+        "\"mode\": \"remesh\" is for sources of different triangles"});
+  }
+}
+
+void check_vertex_count(const SourceSurface& first, double edge_length,
+                        const RemeshOptions& options) {
+  const double area = surface_area(first.mesh.positions, first.mesh.triangles);
+  const double expected = expected_vertices(area, edge_length);
+  if (expected <= options.max_vertices) return;
+  const double fitting =
+      options.target_edge_length * std::sqrt(expected / options.max_vertices) * 1.01;
+  throw BakeError(Problem{
+      Severity::Error,
+      "connectivity.too-many-vertices",
+      {first.file, "", 0, 0},
+      fmt::format("edges of {:.3g} of the diagonal make about {:.0f} vertices of \"{}\", more than "
+                  "max_vertices ({})",
+                  options.target_edge_length, expected, first.name, options.max_vertices),
+      fmt::format("a target_edge_length of {:.3g} fits, or allow more vertices", fitting)});
+}
+
+/// Halves the edges where any source is missed by more than max_error, as long as there is room.
+void refine(Draft& draft, const std::vector<SourceSurface>& surfaces,
+            const std::vector<std::unique_ptr<SurfaceLocator>>& locators, double edge_length,
+            const RemeshOptions& options, const Observer& observer) {
+  for (int round = 1; round <= kRefinements; ++round) {
+    advance(observer, {"resample", round, kRefinements + 1});
+    const SharedTriangulation located = carried(draft, surfaces, *locators[0]);
+    move_onto_source(draft, located);
+    const std::vector<char> is_coarse =
+        coarse_triangles(surfaces, locators, located, options.max_error);
+    std::vector<Face> coarse;
+    double area = 0;
+    for (const Face f : draft.surface.faces()) {
+      if (is_coarse[f.idx()] == 0) continue;
+      coarse.push_back(f);
+      area += surface_area(located.geometries[0],
+                           located.connectivity.triangles.row(static_cast<Eigen::Index>(f.idx())));
+    }
+    edge_length /= 2;
+    const double expected = located.connectivity.vertex_count + expected_vertices(area, edge_length);
+    if (coarse.empty() || expected > options.max_vertices) return;
+    Draft before = draft;
+    remesh_faces(draft, coarse, edge_length);
+    if (draft.surface.number_of_vertices() <=
+        static_cast<Surface::size_type>(options.max_vertices)) {
+      continue;
+    }
+    draft = std::move(before);
+    return;
+  }
+}
+
+}  // namespace
+
+SharedTriangulation resample(const std::vector<SourceSurface>& surfaces,
+                             const RemeshOptions& options, const Observer& observer) {
+  check_same_triangles(surfaces);
+  const SourceSurface& first = surfaces.front();
+  const double edge_length =
+      options.target_edge_length * bounding_diagonal(first.mesh.positions);
+  check_vertex_count(first, edge_length, options);
+  advance(observer, {"resample", 0, kRefinements + 1});
+  std::vector<std::unique_ptr<SurfaceLocator>> locators;
+  for (const SourceSurface& source : surfaces) {
+    locators.push_back(std::make_unique<SurfaceLocator>(source.mesh));
+  }
+  Draft draft = draft_of(insert_landmarks(first));
+  remesh_faces(draft, all_faces(draft), edge_length);
+  if (options.sizing == Sizing::Curvature) {
+    refine(draft, surfaces, locators, edge_length, options, observer);
+  }
+  return carried(draft, surfaces, *locators[0]);
+}
+
+}  // namespace morphbake
