@@ -200,7 +200,7 @@ void check_same_triangles(const std::vector<SourceSurface>& surfaces) {
 
 void check_vertex_count(const SourceSurface& first, double edge_length,
                         const RemeshOptions& options) {
-  const double area = surface_area(first.mesh.positions, first.mesh.triangles);
+  const double area = triangle_areas(first.mesh.positions, first.mesh.triangles).sum();
   const double expected = expected_vertices(area, edge_length);
   if (expected <= options.max_vertices) return;
   const double fitting =
@@ -227,11 +227,12 @@ void refine(Draft& draft, const std::vector<SourceSurface>& surfaces,
         coarse_triangles(surfaces, locators, located, options.max_error);
     std::vector<Face> coarse;
     double area = 0;
+    const Eigen::VectorXd areas =
+        triangle_areas(located.geometries[0], located.connectivity.triangles);
     for (const Face f : draft.surface.faces()) {
       if (is_coarse[f.idx()] == 0) continue;
       coarse.push_back(f);
-      area += surface_area(located.geometries[0],
-                           located.connectivity.triangles.row(static_cast<Eigen::Index>(f.idx())));
+      area += areas(static_cast<Eigen::Index>(f.idx()));
     }
     edge_length /= 2;
     const double expected = located.connectivity.vertex_count + expected_vertices(area, edge_length);

@@ -12,8 +12,8 @@ double bounding_diagonal(const Positions& positions);
 /// A third of the areas of the adjacent triangles, one a vertex.
 Eigen::VectorXd vertex_areas(const Positions& positions, const Triangles& triangles);
 
-/// Sum of the triangles' areas.
-double surface_area(const Positions& positions, const Triangles& triangles);
+/// One a triangle.
+Eigen::VectorXd triangle_areas(const Positions& positions, const Triangles& triangles);
 
 /// Where a point of a surface lies on another geometry of the same triangles, or its own.
 Eigen::RowVector3d point_at(const Positions& positions, const Triangles& triangles,

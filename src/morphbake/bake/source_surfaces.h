@@ -1,0 +1,23 @@
+#pragma once
+
+#include <vector>
+
+#include "morphbake/diagnostics/observer.h"
+#include "morphbake/recipe/recipe.h"
+#include "morphbake/sources/source_mesh.h"
+#include "morphbake/sources/source_surface.h"
+
+namespace morphbake {
+
+/// The surfaces of sources that share their connectivity, with equal triangles.
+///
+/// @throws BakeError as share_connectivity
+std::vector<SourceSurface> shared_surfaces(const Recipe& recipe,
+                                           const std::vector<SourceMesh>& sources);
+
+/// Triangle of the source's file, counted over its primitives, of each triangle of its surface.
+///
+/// @param surface  whose triangles are in the file's order
+std::vector<int> triangles_in_file(const SourceSurface& surface, const SourceMesh& source);
+
+}  // namespace morphbake
