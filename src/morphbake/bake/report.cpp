@@ -1,4 +1,5 @@
 #include "morphbake/bake/bake.h"
+#include "morphbake/bake/remesh.h"
 #include "morphbake/json/json.h"
 #include "morphbake/version.h"
 
@@ -141,6 +142,16 @@ std::string report_to_json(const BakeReport& report) {
                {"solve", to_json(report.solve)}};
   json["stages"] = to_json(report.stages);
   json["outputs"] = list_of(report.outputs);
+  json["problems"] = to_json(report.problems);
+  return json.dump(2) + "\n";
+}
+
+std::string report_to_json(const RemeshReport& report) {
+  Json json = {{"morphbake", version()},
+               {"recipe", report.recipe},
+               {"connectivity", to_json(report.connectivity)}};
+  json["files"] = Json::array();
+  for (const auto& file : report.files) json["files"].push_back(file.string());
   json["problems"] = to_json(report.problems);
   return json.dump(2) + "\n";
 }

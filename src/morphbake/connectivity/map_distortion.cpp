@@ -53,7 +53,7 @@ std::vector<int> label_sets(const Triangles& triangles, const std::vector<char>&
       const int a = triangles(f, k), b = triangles(f, (k + 1) % 3);
       const auto [entry, is_new] = triangle_at.try_emplace({std::min(a, b), std::max(a, b)}, f);
       if (is_new) continue;
-      const auto [low, high] = std::minmax(root(entry->second), root(f));
+      const auto [low, high] = std::minmax({root(entry->second), root(f)});
       parent[static_cast<std::size_t>(high)] = low;
     }
   }

@@ -1,6 +1,7 @@
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Polygon_mesh_processing/remesh.h>
 #include <CGAL/Surface_mesh.h>
+#include <CGAL/boost/graph/Euler_operations.h>
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -24,7 +25,7 @@ using Edge = Surface::Edge_index;
 using Face = Surface::Face_index;
 
 constexpr unsigned kIterations = 5;  // of splits, collapses, flips and smoothing
-constexpr int kRefinements = 6;      // the finest edges are target / 2^6
+constexpr int kRefinements = 16;     // rounds of splits
 constexpr int kNoLandmark = -1;
 
 /// The first source's surface on its way to the new connectivity. What must stay is marked on it,
@@ -70,19 +71,15 @@ Draft draft_of(const LandmarkedMesh& from) {
 }
 
 /// Borders and hard edges may be split but not shortened, so they keep their curves.
-void remesh_faces(Draft& draft, const std::vector<Face>& faces, double edge_length) {
+void remesh_evenly(Draft& draft, double edge_length) {
   namespace parameters = CGAL::parameters;
   CGAL::Polygon_mesh_processing::isotropic_remeshing(
-      faces, edge_length, draft.surface,
+      faces(draft.surface), edge_length, draft.surface,
       parameters::number_of_iterations(kIterations)
           .collapse_constraints(false)
           .edge_is_constrained_map(draft.hard())
           .vertex_is_constrained_map(draft.fixed()));
   draft.surface.collect_garbage();
-}
-
-std::vector<Face> all_faces(const Draft& draft) {
-  return {draft.surface.faces_begin(), draft.surface.faces_end()};
 }
 
 /// The draft as plain data, each vertex found on the first source and carried to the others.
@@ -215,9 +212,54 @@ void check_vertex_count(const SourceSurface& first, double edge_length,
       fmt::format("a target_edge_length of {:.3g} fits, or allow more vertices", fitting)});
 }
 
-/// Halves the edges where any source is missed by more than max_error, as long as there is room.
+double squared_length(const Surface& surface, Surface::Halfedge_index h) {
+  return CGAL::squared_distance(surface.point(surface.source(h)),
+                                surface.point(surface.target(h)));
+}
+
+Surface::Halfedge_index longest_side(const Surface& surface, Face f) {
+  Surface::Halfedge_index longest = surface.halfedge(f);
+  for (const auto h : surface.halfedges_around_face(longest)) {
+    if (squared_length(surface, h) > squared_length(surface, longest)) longest = h;
+  }
+  return longest;
+}
+
+/// The edge to split for a smaller `f`: the longest of both triangles beside it, found by going
+/// over longest sides. Splitting only such edges keeps angles above half of the smallest before.
+/// @see Rivara 1997, longest-edge propagation paths
+Surface::Halfedge_index edge_to_split(const Surface& surface, Face f) {
+  Surface::Halfedge_index side = longest_side(surface, f);
+  for (;;) {
+    const Surface::Halfedge_index other = surface.opposite(side);
+    if (surface.is_border(other)) return side;
+    const Surface::Halfedge_index next = longest_side(surface, surface.face(other));
+    if (!(squared_length(surface, next) > squared_length(surface, other))) return side;
+    side = next;
+  }
+}
+
+void split_in_middle(Draft& draft, Surface::Halfedge_index h) {
+  Surface& surface = draft.surface;
+  auto hard = draft.hard();
+  const bool is_hard = hard[surface.edge(h)];
+  const Kernel::Point_3 middle =
+      CGAL::midpoint(surface.point(surface.source(h)), surface.point(surface.target(h)));
+  const auto first = CGAL::Euler::split_edge(h, surface);  // ends in the new vertex
+  surface.point(surface.target(first)) = middle;
+  hard[surface.edge(first)] = is_hard;
+  for (const auto side : {first, surface.opposite(surface.next(first))}) {
+    if (surface.is_border(side)) continue;
+    CGAL::Euler::split_face(side, surface.next(surface.next(side)), surface);
+  }
+}
+
+/// Splits triangles where any source is missed by more than max_error, as long as there is room.
+///
+/// Isotropic remeshing of these triangles alone, with halved edges, folded: CGAL takes the borders
+/// of scattered patches for features.
 void refine(Draft& draft, const std::vector<SourceSurface>& surfaces,
-            const std::vector<std::unique_ptr<SurfaceLocator>>& locators, double edge_length,
+            const std::vector<std::unique_ptr<SurfaceLocator>>& locators,
             const RemeshOptions& options, const Observer& observer) {
   for (int round = 1; round <= kRefinements; ++round) {
     advance(observer, {"resample", round, kRefinements + 1});
@@ -225,26 +267,13 @@ void refine(Draft& draft, const std::vector<SourceSurface>& surfaces,
     move_onto_source(draft, located);
     const std::vector<char> is_coarse =
         coarse_triangles(surfaces, locators, located, options.max_error);
-    std::vector<Face> coarse;
-    double area = 0;
-    const Eigen::VectorXd areas =
-        triangle_areas(located.geometries[0], located.connectivity.triangles);
-    for (const Face f : draft.surface.faces()) {
-      if (is_coarse[f.idx()] == 0) continue;
-      coarse.push_back(f);
-      area += areas(static_cast<Eigen::Index>(f.idx()));
+    if (std::find(is_coarse.begin(), is_coarse.end(), 1) == is_coarse.end()) return;
+    const auto room = static_cast<Surface::size_type>(options.max_vertices);
+    for (std::size_t f = 0; f < is_coarse.size(); ++f) {
+      if (draft.surface.number_of_vertices() >= room) return;
+      if (is_coarse[f] == 0) continue;
+      split_in_middle(draft, edge_to_split(draft.surface, Face(static_cast<unsigned>(f))));
     }
-    edge_length /= 2;
-    const double expected = located.connectivity.vertex_count + expected_vertices(area, edge_length);
-    if (coarse.empty() || expected > options.max_vertices) return;
-    Draft before = draft;
-    remesh_faces(draft, coarse, edge_length);
-    if (draft.surface.number_of_vertices() <=
-        static_cast<Surface::size_type>(options.max_vertices)) {
-      continue;
-    }
-    draft = std::move(before);
-    return;
   }
 }
 
@@ -263,9 +292,9 @@ SharedTriangulation resample(const std::vector<SourceSurface>& surfaces,
     locators.push_back(std::make_unique<SurfaceLocator>(source.mesh));
   }
   Draft draft = draft_of(insert_landmarks(first));
-  remesh_faces(draft, all_faces(draft), edge_length);
+  remesh_evenly(draft, edge_length);
   if (options.sizing == Sizing::Curvature) {
-    refine(draft, surfaces, locators, edge_length, options, observer);
+    refine(draft, surfaces, locators, options, observer);
   }
   return carried(draft, surfaces, *locators[0]);
 }

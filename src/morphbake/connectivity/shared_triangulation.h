@@ -34,8 +34,8 @@ SharedTriangulation triangulate(const std::vector<SphericalMap>& maps, const Rem
 /// CGAL's isotropic remeshing of the first source; each new vertex is carried to the others by its
 /// barycentric coordinates. Boundary curves and hard edges are only ever split. The first source's
 /// landmarks are vertices, at the same place of the connectivity in every source. CGAL 5.5 has no
-/// sizing by curvature: Sizing::Curvature halves even edges, up to six times, where any source is
-/// missed by more than max_error; Sizing::Uniform leaves them even and does not look at max_error.
+/// sizing by curvature: Sizing::Curvature splits the even triangles at their longest edges where any
+/// source is missed by more than max_error; Sizing::Uniform does not look at max_error.
 /// @param surfaces  with equal triangles
 /// @throws BakeError "connectivity.different-triangles", "connectivity.too-many-vertices";
 ///         Cancelled
