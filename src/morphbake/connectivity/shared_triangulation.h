@@ -34,8 +34,9 @@ SharedTriangulation triangulate(const std::vector<SphericalMap>& maps, const Rem
 /// CGAL's isotropic remeshing of the first source; each new vertex is carried to the others by its
 /// barycentric coordinates. Boundary curves and hard edges are only ever split. The first source's
 /// landmarks are vertices, at the same place of the connectivity in every source. CGAL 5.5 has no
-/// sizing by curvature: Sizing::Curvature splits the even triangles at their longest edges where any
-/// source is missed by more than max_error; Sizing::Uniform does not look at max_error.
+/// sizing by curvature: Sizing::Curvature makes all edges finer, from target_edge_length, until
+/// every source is met within max_error or max_vertices is reached; Sizing::Uniform does not look
+/// at max_error.
 /// @param surfaces  with equal triangles
 /// @throws BakeError "connectivity.different-triangles", "connectivity.too-many-vertices";
 ///         Cancelled
