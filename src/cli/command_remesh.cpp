@@ -35,9 +35,9 @@ std::vector<std::string> summary_lines(const RemeshReport& report) {
         source.self_intersections, source.source_self_intersections, source.smallest_angle));
   }
   for (const MapQuality& map : connectivity.quality->maps) {
-    lines.push_back(
-        fmt::format("  distortion to {}: mean {:.3f}, median {:.3f}, 99 in 100 {:.2f}, worst {:.3g}",
-                    map.source, map.mean, map.median, map.percentile_99, map.maximum));
+    lines.push_back(fmt::format(
+        "  distortion to {}: mean {:.3f}, median {:.3f}, 99 in 100 {:.2f}, worst {:.3g}",
+        map.source, map.mean, map.median, map.percentile_99, map.maximum));
   }
   for (const StageReport& step : connectivity.steps) {
     lines.push_back(fmt::format("  {:<14}{:8.2f} s", step.name, step.seconds));

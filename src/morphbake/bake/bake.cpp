@@ -23,8 +23,7 @@ BakeReport bake(const Recipe& recipe, const BakeOptions& options, const Observer
   clock.start("sources");
   std::vector<SourceMesh> loaded = load_sources(recipe, observer);
   clock.start("connectivity");
-  ConnectedSources connected =
-      connect_sources(recipe, std::move(loaded), Measuring::On, observer);
+  ConnectedSources connected = connect_sources(recipe, std::move(loaded), Measuring::On, observer);
   const std::vector<SourceMesh>& sources = connected.sources;
   const MorphableMesh mesh = share_connectivity(sources);
   clock.start("transition");

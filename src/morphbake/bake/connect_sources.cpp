@@ -14,14 +14,13 @@ RemeshOptions options_of(const ConnectivityRequest& request) {
   options.max_error = request.max_error;
   options.max_vertices = request.max_vertices;
   options.target_edge_length = request.target_edge_length;
-  options.sizing =
-      request.sizing == VertexSizing::Uniform ? Sizing::Uniform : Sizing::Curvature;
+  options.sizing = request.sizing == VertexSizing::Uniform ? Sizing::Uniform : Sizing::Curvature;
   return options;
 }
 
 SharedTriangulation new_triangulation(const Recipe& recipe,
-                                      const std::vector<SourceSurface>& surfaces,
-                                      StageClock& clock, const Observer& observer) {
+                                      const std::vector<SourceSurface>& surfaces, StageClock& clock,
+                                      const Observer& observer) {
   const RemeshOptions options = options_of(recipe.connectivity);
   if (recipe.connectivity.mode == ConnectivityMode::Resample) {
     clock.start("resample");
@@ -70,8 +69,8 @@ ConnectedSources connect_sources(const Recipe& recipe, std::vector<SourceMesh> s
   }
   clock.start("read");
   for (std::size_t s = 0; s < sources.size(); ++s) {
-    connected.sources.push_back(
-        read_source(sources[s].name, open_gltf_bytes(remeshed.files.glbs[s], recipe.sources[s].file)));
+    connected.sources.push_back(read_source(
+        sources[s].name, open_gltf_bytes(remeshed.files.glbs[s], recipe.sources[s].file)));
   }
   connected.report.steps = clock.finish();
   return connected;

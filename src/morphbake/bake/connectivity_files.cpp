@@ -29,7 +29,8 @@ struct FileVertices {
 std::pair<int, int> edge_of(int a, int b) { return {std::min(a, b), std::max(a, b)}; }
 
 /// Joins the corners at a vertex over every edge that is not hard.
-std::vector<int> corner_fans(const Triangles& triangles, const std::set<std::pair<int, int>>& hard) {
+std::vector<int> corner_fans(const Triangles& triangles,
+                             const std::set<std::pair<int, int>>& hard) {
   std::vector<int> parent(static_cast<std::size_t>(triangles.size()));
   std::iota(parent.begin(), parent.end(), 0);
   const auto root = [&](int c) {
@@ -126,7 +127,8 @@ void append_map(const SourceMesh& source, const SourceSurface& surface,
   const std::vector<int> in_file = triangles_in_file(surface, source);
   for (const int vertex : vertices.vertex) {
     const SurfacePoint& point = points[static_cast<std::size_t>(vertex)];
-    append_number(bytes, static_cast<std::uint32_t>(in_file[static_cast<std::size_t>(point.triangle)]));
+    append_number(bytes,
+                  static_cast<std::uint32_t>(in_file[static_cast<std::size_t>(point.triangle)]));
   }
   align(bytes);
   for (const int vertex : vertices.vertex) {

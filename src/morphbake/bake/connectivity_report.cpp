@@ -28,20 +28,19 @@ void add_source_warnings(const Recipe& recipe, const SourceQuality& quality,
         "allow more max_vertices, or a larger max_error"));
   }
   if (quality.folds > 0) {
-    warnings.push_back(warning(
-        recipe, "connectivity.folds",
-        fmt::format("{} new triangles of \"{}\" face against its surface", quality.folds,
-                    quality.source),
-        "look at the red places of the sheet; landmarks there, or a finer mesh, help"));
+    warnings.push_back(
+        warning(recipe, "connectivity.folds",
+                fmt::format("{} new triangles of \"{}\" face against its surface", quality.folds,
+                            quality.source),
+                "look at the red places of the sheet; landmarks there, or a finer mesh, help"));
   }
   if (const int more = quality.self_intersections - quality.source_self_intersections; more > 0) {
-    warnings.push_back(
-        warning(recipe, "connectivity.self-intersections",
-                fmt::format("{} pairs of new triangles of \"{}\" cut one another; {} of the source "
-                            "did already",
-                            quality.self_intersections, quality.source,
-                            quality.source_self_intersections),
-                "a smaller max_error keeps thin parts apart"));
+    warnings.push_back(warning(
+        recipe, "connectivity.self-intersections",
+        fmt::format("{} pairs of new triangles of \"{}\" cut one another; {} of the source "
+                    "did already",
+                    quality.self_intersections, quality.source, quality.source_self_intersections),
+        "a smaller max_error keeps thin parts apart"));
   }
 }
 

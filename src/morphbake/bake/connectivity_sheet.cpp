@@ -103,9 +103,9 @@ AnimatedPrimitive smooth_surface(const Positions& positions, const Triangles& tr
   AnimatedPrimitive primitive;
   primitive.triangles = triangles;
   primitive.positions = positions.cast<float>();
-  primitive.normals = corner_group_normals(positions, triangles, of_corner,
-                                           static_cast<int>(positions.rows()))
-                          .cast<float>();
+  primitive.normals =
+      corner_group_normals(positions, triangles, of_corner, static_cast<int>(positions.rows()))
+          .cast<float>();
   return primitive;
 }
 

@@ -135,9 +135,12 @@ Json to_json(const ConnectivityReport& report) {
 }  // namespace
 
 std::string report_to_json(const BakeReport& report) {
-  Json json = {{"morphbake", version()},          {"recipe", report.recipe},
-               {"vertices", report.vertices},     {"triangles", report.triangles},
-               {"components", report.components}, {"frames", report.frames},
+  Json json = {{"morphbake", version()},
+               {"recipe", report.recipe},
+               {"vertices", report.vertices},
+               {"triangles", report.triangles},
+               {"components", report.components},
+               {"frames", report.frames},
                {"connectivity", to_json(report.connectivity)},
                {"solve", to_json(report.solve)}};
   json["stages"] = to_json(report.stages);

@@ -77,8 +77,7 @@ std::vector<int> triangles_in_file(const SourceSurface& surface, const SourceMes
   for (std::size_t f = 0; f < surface.render_of_corner.size() / 3; ++f) {
     const Corners wanted = sorted(corners_of(surface.render_of_corner, f));
     const auto corners = [&] {
-      return sorted(
-          {source.triangles(at, 0), source.triangles(at, 1), source.triangles(at, 2)});
+      return sorted({source.triangles(at, 0), source.triangles(at, 1), source.triangles(at, 2)});
     };
     while (corners() != wanted) ++at;  // triangles that the surface dropped
     assert(at < source.triangles.rows());

@@ -49,8 +49,7 @@ Eigen::Vector3d barycentric(const Draft& draft, const Eigen::Vector3i& triangle,
   const Eigen::Vector3d& b = draft.position(triangle(1));
   const Eigen::Vector3d& c = draft.position(triangle(2));
   const Eigen::Vector3d normal = (b - a).cross(c - a);
-  return Eigen::Vector3d(normal.dot((c - b).cross(point - b)),
-                         normal.dot((a - c).cross(point - c)),
+  return Eigen::Vector3d(normal.dot((c - b).cross(point - b)), normal.dot((a - c).cross(point - c)),
                          normal.dot((b - a).cross(point - a))) /
          normal.squaredNorm();
 }

@@ -84,8 +84,8 @@ void name_nearest_landmark(const SharedTriangulation& triangulation,
 
 Eigen::VectorXd map_distortion(const Positions& from, const Positions& to,
                                const Triangles& triangles) {
-  const double scale = std::sqrt(triangle_areas(from, triangles).sum() /
-                                 triangle_areas(to, triangles).sum());
+  const double scale =
+      std::sqrt(triangle_areas(from, triangles).sum() / triangle_areas(to, triangles).sum());
   Eigen::VectorXd distortion(triangles.rows());
   for (int f = 0; f < triangles.rows(); ++f) {
     const Eigen::Matrix2d a = flattened(from, triangles, f);
@@ -139,9 +139,8 @@ std::vector<DistortionRegion> find_distortion_regions(const SharedTriangulation&
     region.centre /= 3 * region.triangles;
     name_nearest_landmark(triangulation, names, region);
   }
-  std::stable_sort(
-      regions.begin(), regions.end(),
-      [](const auto& a, const auto& b) { return a.area_share > b.area_share; });
+  std::stable_sort(regions.begin(), regions.end(),
+                   [](const auto& a, const auto& b) { return a.area_share > b.area_share; });
   return regions;
 }
 

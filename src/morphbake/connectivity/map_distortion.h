@@ -34,7 +34,7 @@ constexpr double kHighDistortion = 5;
 struct DistortionRegion {
   std::string source;  ///< the other
   int triangles = 0;
-  double area_share = 0;  ///< of the first source's area, 0 to 1
+  double area_share = 0;                                   ///< of the first source's area, 0 to 1
   Eigen::RowVector3d centre = Eigen::RowVector3d::Zero();  ///< on the first source, scene units
   std::string nearest_landmark;                            ///< "" without landmarks
   double landmark_distance = 0;  ///< of `centre` from it, fraction of the diagonal

@@ -103,8 +103,8 @@ TriangulationQuality measure_triangulation(const std::vector<SourceSurface>& sur
     advance(observer, {"measure", static_cast<int>(s), count});
     quality.sources.push_back(measure_source(surfaces[s], triangulation, s));
     if (s == 0) continue;
-    quality.maps.push_back(summarize_distortion(
-        map_distortion(first, triangulation.geometries[s], triangles), areas));
+    quality.maps.push_back(
+        summarize_distortion(map_distortion(first, triangulation.geometries[s], triangles), areas));
     quality.maps.back().source = surfaces[s].name;
     for (DistortionRegion& region :
          find_distortion_regions(triangulation, s, surfaces[0].landmark_names)) {
@@ -112,9 +112,8 @@ TriangulationQuality measure_triangulation(const std::vector<SourceSurface>& sur
       quality.regions.push_back(std::move(region));
     }
   }
-  std::stable_sort(
-      quality.regions.begin(), quality.regions.end(),
-      [](const auto& a, const auto& b) { return a.area_share > b.area_share; });
+  std::stable_sort(quality.regions.begin(), quality.regions.end(),
+                   [](const auto& a, const auto& b) { return a.area_share > b.area_share; });
   if (quality.regions.size() > kListedRegions) quality.regions.resize(kListedRegions);
   return quality;
 }

@@ -78,12 +78,12 @@ Draft draft_of(const LandmarkedMesh& from) {
 /// Borders and hard edges may be split but not shortened, so they keep their curves.
 void remesh_evenly(Draft& draft, double edge_length) {
   namespace parameters = CGAL::parameters;
-  CGAL::Polygon_mesh_processing::isotropic_remeshing(
-      faces(draft.surface), edge_length, draft.surface,
-      parameters::number_of_iterations(kIterations)
-          .collapse_constraints(false)
-          .edge_is_constrained_map(draft.hard())
-          .vertex_is_constrained_map(draft.fixed()));
+  CGAL::Polygon_mesh_processing::isotropic_remeshing(faces(draft.surface), edge_length,
+                                                     draft.surface,
+                                                     parameters::number_of_iterations(kIterations)
+                                                         .collapse_constraints(false)
+                                                         .edge_is_constrained_map(draft.hard())
+                                                         .vertex_is_constrained_map(draft.fixed()));
   draft.surface.collect_garbage();
 }
 

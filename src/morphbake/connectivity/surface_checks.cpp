@@ -54,9 +54,9 @@ int count_flipped(const Positions& sphere, const Triangles& triangles) {
   int count = 0;
   for (int f = 0; f < triangles.rows(); ++f) {
     // The sign of det(a, b, c), as for a triangle that is counter-clockwise from outside.
-    const auto turn = CGAL::orientation(origin, point_of(sphere, triangles(f, 0)),
-                                        point_of(sphere, triangles(f, 1)),
-                                        point_of(sphere, triangles(f, 2)));
+    const auto turn =
+        CGAL::orientation(origin, point_of(sphere, triangles(f, 0)),
+                          point_of(sphere, triangles(f, 1)), point_of(sphere, triangles(f, 2)));
     count += turn != CGAL::POSITIVE;
   }
   return count;

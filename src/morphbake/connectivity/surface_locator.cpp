@@ -27,7 +27,8 @@ Point to_cgal(const Eigen::Vector3d& position) {
 Eigen::Vector3d barycentric(const Eigen::Vector3d& a, const Eigen::Vector3d& b,
                             const Eigen::Vector3d& c, const Eigen::Vector3d& point) {
   const Eigen::Vector3d normal = (b - a).cross(c - a);
-  Eigen::Vector3d weights(normal.dot((c - b).cross(point - b)), normal.dot((a - c).cross(point - c)),
+  Eigen::Vector3d weights(normal.dot((c - b).cross(point - b)),
+                          normal.dot((a - c).cross(point - c)),
                           normal.dot((b - a).cross(point - a)));
   weights /= normal.squaredNorm();
   weights = (weights.array() < kOnEdge).select(0, weights);

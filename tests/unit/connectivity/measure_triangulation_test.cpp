@@ -91,10 +91,9 @@ TEST(MeasureTriangulation, ChecksTheSphereExactly) {
   EXPECT_EQ(good.flipped_triangles, 0);
   EXPECT_NEAR(good.covering, 1, 1e-12);
   triangulation.sphere[0].row(0) = -triangulation.sphere[0].row(0);
-  EXPECT_GT(measure_triangulation({surface_of(mesh)}, triangulation)
-                .sources[0]
-                .sphere->flipped_triangles,
-            0);
+  EXPECT_GT(
+      measure_triangulation({surface_of(mesh)}, triangulation).sources[0].sphere->flipped_triangles,
+      0);
 }
 
 TEST(MeasureTriangulation, NamesTheLandmarkNearestToADistortedRegion) {
