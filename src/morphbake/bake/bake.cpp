@@ -1,6 +1,7 @@
 #include "morphbake/bake/bake.h"
 
 #include "morphbake/bake/outputs.h"
+#include "morphbake/bake/places.h"
 #include "morphbake/bake/previews.h"
 #include "morphbake/bake/stage_clock.h"
 #include "morphbake/transition/regions.h"
@@ -39,14 +40,15 @@ Observer recording(const Observer& observer, std::vector<Problem>& problems) {
 
 }  // namespace
 
-BakeReport bake(const Recipe& recipe, const BakeOptions& options, const Observer& caller) {
+BakeReport bake(const Recipe& asked, const BakeOptions& options, const Observer& caller) {
   BakeReport bake_report;
-  bake_report.recipe = recipe.name;
+  bake_report.recipe = asked.name;
   const Observer observer = recording(caller, bake_report.problems);
   StageClock clock(observer);
 
   clock.start("sources");
-  const std::vector<SourceMesh> sources = load_sources(recipe, observer);
+  const std::vector<SourceMesh> sources = load_sources(asked, observer);
+  const Recipe recipe = with_positions(asked, sources);
   clock.start("connectivity");
   const MorphableMesh mesh = share_connectivity(sources);
   clock.start("transition");
@@ -82,8 +84,10 @@ BakeReport bake(const Recipe& recipe, const BakeOptions& options, const Observer
   return bake_report;
 }
 
-void validate(const Recipe& recipe, const BakeOptions& options, const Observer& observer) {
-  const MorphableMesh mesh = share_connectivity(load_sources(recipe, observer));
+void validate(const Recipe& asked, const BakeOptions& options, const Observer& observer) {
+  const std::vector<SourceMesh> sources = load_sources(asked, observer);
+  const Recipe recipe = with_positions(asked, sources);
+  const MorphableMesh mesh = share_connectivity(sources);
   check_timeline(recipe, mesh, region_distances(mesh, recipe), options.solve);
 }
 
