@@ -3,7 +3,7 @@
 #include <CGAL/Simple_cartesian.h>
 #include <CGAL/Surface_mesh.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Count_stop_predicate.h>
-#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/GarlandHeckbert_policies.h>
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/GarlandHeckbert_plane_policies.h>
 #include <CGAL/Surface_mesh_simplification/edge_collapse.h>
 
 namespace morphbake {
@@ -51,7 +51,7 @@ Mesh decimated(const Mesh& mesh, int vertices) {
   Surface surface = to_cgal(mesh);
   // Three edges a vertex, as on closed surfaces.
   const simplification::Count_stop_predicate<Surface> stop(static_cast<std::size_t>(vertices) * 3);
-  using Policies = simplification::GarlandHeckbert_policies<Surface, Kernel>;
+  using Policies = simplification::GarlandHeckbert_plane_policies<Surface, Kernel>;
   const Policies policies(surface);
   simplification::edge_collapse(
       surface, stop,
