@@ -3,6 +3,7 @@
 #include "morphbake/bake/connect_sources.h"
 #include "morphbake/bake/load_sources.h"
 #include "morphbake/bake/outputs.h"
+#include "morphbake/bake/places.h"
 #include "morphbake/bake/previews.h"
 #include "morphbake/bake/stage_clock.h"
 #include "morphbake/transition/regions.h"
@@ -14,14 +15,15 @@ std::filesystem::path stem_of(std::filesystem::path file) { return file.replace_
 
 }  // namespace
 
-BakeReport bake(const Recipe& recipe, const BakeOptions& options, const Observer& caller) {
+BakeReport bake(const Recipe& asked, const BakeOptions& options, const Observer& caller) {
   BakeReport bake_report;
-  bake_report.recipe = recipe.name;
+  bake_report.recipe = asked.name;
   const Observer observer = recording(caller, bake_report.problems);
   StageClock clock(observer);
 
   clock.start("sources");
-  std::vector<SourceMesh> loaded = load_sources(recipe, observer);
+  std::vector<SourceMesh> loaded = load_sources(asked, observer);
+  const Recipe recipe = with_positions(asked, loaded);
   clock.start("connectivity");
   ConnectedSources connected = connect_sources(recipe, std::move(loaded), Measuring::On, observer);
   const std::vector<SourceMesh>& sources = connected.sources;
@@ -62,9 +64,11 @@ BakeReport bake(const Recipe& recipe, const BakeOptions& options, const Observer
   return bake_report;
 }
 
-void validate(const Recipe& recipe, const BakeOptions& options, const Observer& observer) {
+void validate(const Recipe& asked, const BakeOptions& options, const Observer& observer) {
+  std::vector<SourceMesh> loaded = load_sources(asked, observer);
+  const Recipe recipe = with_positions(asked, loaded);
   const ConnectedSources connected =
-      connect_sources(recipe, load_sources(recipe, observer), Measuring::Off, observer);
+      connect_sources(recipe, std::move(loaded), Measuring::Off, observer);
   const MorphableMesh mesh = share_connectivity(connected.sources);
   check_timeline(recipe, mesh, region_distances(mesh, recipe), options.solve);
 }

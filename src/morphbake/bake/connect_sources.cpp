@@ -38,7 +38,9 @@ RemeshedSources remesh_sources(const Recipe& recipe, const std::vector<SourceMes
                                StageClock& clock, const Observer& observer) {
   RemeshedSources remeshed;
   clock.start("surfaces");
-  remeshed.surfaces = shared_surfaces(recipe, sources);
+  const bool is_shared = recipe.connectivity.mode == ConnectivityMode::Resample;
+  remeshed.surfaces = is_shared ? shared_surfaces(recipe, sources, observer)
+                                : own_surfaces(recipe, sources, observer);
   remeshed.triangulation = new_triangulation(recipe, remeshed.surfaces, clock, observer);
   clock.start("carry");
   remeshed.files = write_connectivity_files(sources, remeshed.surfaces, remeshed.triangulation);

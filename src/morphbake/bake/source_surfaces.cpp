@@ -3,9 +3,13 @@
 #include <algorithm>
 #include <array>
 #include <cassert>
+#include <utility>
 
 #include "morphbake/connectivity/morphable_mesh.h"
-#include "morphbake/transition/surface_distance.h"
+#include "morphbake/sources/common_landmarks.h"
+#include "morphbake/sources/corner_surface.h"
+#include "morphbake/sources/hard_edges.h"
+#include "morphbake/sources/places.h"
 
 namespace morphbake {
 namespace {
@@ -21,52 +25,64 @@ Corners corners_of(const std::vector<int>& render_of_corner, std::size_t f) {
   return {render_of_corner[3 * f], render_of_corner[3 * f + 1], render_of_corner[3 * f + 2]};
 }
 
-/// `render_of_corner` of another source that shares the first one's triangles: the corners of the
-/// same file triangle.
-std::vector<int> same_corners(const SourceMesh& first, const std::vector<int>& of_first,
-                              const std::vector<int>& in_file, const SourceMesh& other) {
-  std::vector<int> result;
-  for (std::size_t c = 0; c < of_first.size(); ++c) {
+/// The shared surface as corners of the files' triangles, which are the same in all of them.
+CornerSurface corner_surface(const MorphableMesh& shared, const SourceMesh& first) {
+  SourceSurface surface;
+  surface.render_of_corner = shared.render_of_corner;
+  const std::vector<int> in_file = triangles_in_file(surface, first);
+  CornerSurface corners;
+  corners.connectivity = shared.connectivity;
+  corners.vertex_of_corner.assign(static_cast<std::size_t>(first.triangles.size()), -1);
+  for (std::size_t c = 0; c < shared.render_of_corner.size(); ++c) {
     const int f = in_file[c / 3];
     int k = 0;
-    while (first.triangles(f, k) != of_first[c]) ++k;
-    result.push_back(other.triangles(f, k));
+    while (first.triangles(f, k) != shared.render_of_corner[c]) ++k;
+    corners.file_corner.push_back(3 * f + k);
+    corners.vertex_of_corner[static_cast<std::size_t>(3 * f + k)] =
+        shared.connectivity.triangles.data()[c];
   }
-  return result;
-}
-
-void add_landmarks(const SourceRef& ref, SourceSurface& surface) {
-  for (const NamedPosition& landmark : ref.landmarks) {
-    surface.landmark_names.push_back(landmark.name);
-    surface.landmarks.push_back(closest_point(surface.mesh, landmark.position));
-  }
+  return corners;
 }
 
 }  // namespace
 
-std::vector<SourceSurface> shared_surfaces(const Recipe& recipe,
-                                           const std::vector<SourceMesh>& sources) {
-  const MorphableMesh shared = share_connectivity(sources);
+std::vector<SourceSurface> own_surfaces(const Recipe& recipe,
+                                        const std::vector<SourceMesh>& sources,
+                                        const Observer& observer) {
   std::vector<SourceSurface> surfaces;
-  std::vector<int> in_file;
+  std::vector<Problem> problems;
   for (std::size_t s = 0; s < sources.size(); ++s) {
+    try {
+      surfaces.push_back(source_surface(sources[s], recipe.sources[s], observer));
+    } catch (const BakeError& error) {
+      problems.insert(problems.end(), error.problems().begin(), error.problems().end());
+    }
+  }
+  if (!problems.empty()) throw BakeError(std::move(problems));
+  return with_common_landmarks(std::move(surfaces), observer);
+}
+
+std::vector<SourceSurface> shared_surfaces(const Recipe& recipe,
+                                           const std::vector<SourceMesh>& sources,
+                                           const Observer& observer) {
+  const MorphableMesh shared = share_connectivity(sources);
+  const CornerSurface corners = corner_surface(shared, sources[0]);
+  std::vector<SourceSurface> surfaces;
+  for (std::size_t s = 0; s < sources.size(); ++s) {
+    const SourceRef& ref = recipe.sources[s];
     SourceSurface& surface = surfaces.emplace_back();
     surface.name = sources[s].name;
-    surface.file = recipe.sources[s].file.string();
+    surface.file = ref.file.string();
     surface.mesh = {shared.geometries[s], shared.connectivity.triangles};
-    surface.render_of_corner = shared.render_of_corner;
-    if (s == 0) {
-      in_file = triangles_in_file(surface, sources[0]);
-    } else {
-      surface.render_of_corner =
-          same_corners(sources[0], shared.render_of_corner, in_file, sources[s]);
-    }
+    surface.render_of_corner = render_corners(sources[s], corners);
     surface.vertex_of_render.assign(static_cast<std::size_t>(sources[s].positions.rows()), -1);
     for (std::size_t c = 0; c < surface.render_of_corner.size(); ++c) {
       surface.vertex_of_render[static_cast<std::size_t>(surface.render_of_corner[c])] =
           surface.mesh.triangles.data()[c];
     }
-    add_landmarks(recipe.sources[s], surface);
+    surface.hard_edges = find_hard_edges(sources[s], corners, surface.mesh);
+    for (const Landmark& landmark : ref.landmarks) surface.landmark_names.push_back(landmark.name);
+    surface.landmarks = landmark_points(sources[s], corners, surface.mesh, ref, observer);
   }
   return surfaces;
 }

@@ -9,11 +9,19 @@
 
 namespace morphbake {
 
+/// The surfaces of sources of any triangles, with the landmarks that all have.
+///
+/// @throws BakeError as source_surface and with_common_landmarks, with the problems of all sources
+std::vector<SourceSurface> own_surfaces(const Recipe& recipe,
+                                        const std::vector<SourceMesh>& sources,
+                                        const Observer& observer);
+
 /// The surfaces of sources that share their connectivity, with equal triangles.
 ///
-/// @throws BakeError as share_connectivity
+/// @throws BakeError as share_connectivity and landmark_points
 std::vector<SourceSurface> shared_surfaces(const Recipe& recipe,
-                                           const std::vector<SourceMesh>& sources);
+                                           const std::vector<SourceMesh>& sources,
+                                           const Observer& observer);
 
 /// Triangle of the source's file, counted over its primitives, of each triangle of its surface.
 ///

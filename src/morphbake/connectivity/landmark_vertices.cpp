@@ -5,7 +5,7 @@
 #include <set>
 #include <utility>
 
-#include "morphbake/mesh/measures.h"
+#include "morphbake/mesh/closest_point.h"
 
 namespace morphbake {
 namespace {
@@ -120,8 +120,7 @@ LandmarkedMesh insert_landmarks(const SourceSurface& surface) {
   Draft draft = draft_of(surface);
   LandmarkedMesh result;
   for (const SurfacePoint& landmark : surface.landmarks) {
-    const Eigen::Vector3d point =
-        point_at(surface.mesh.positions, surface.mesh.triangles, landmark);
+    const Eigen::Vector3d point = position_of(surface.mesh, landmark);
     result.landmarks.push_back(insert_point(draft, landmark.triangle, point));
   }
   result.mesh.positions.resize(static_cast<Eigen::Index>(draft.positions.size()), 3);

@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "morphbake/connectivity/surface_checks.h"
-#include "morphbake/connectivity/surface_locator.h"
+#include "morphbake/mesh/closest_point.h"
 #include "morphbake/mesh/measures.h"
 
 namespace morphbake {
@@ -24,13 +24,15 @@ Eigen::RowVector3d face_normal(const Mesh& mesh, int f) {
 }
 
 int count_folds(const Mesh& source, const Mesh& remesh) {
-  const SurfaceLocator locator(source);
+  Positions centres = Positions::Zero(remesh.triangles.rows(), 3);
+  for (int f = 0; f < remesh.triangles.rows(); ++f) {
+    for (int k = 0; k < 3; ++k) centres.row(f) += remesh.positions.row(remesh.triangles(f, k)) / 3;
+  }
+  const std::vector<SurfacePoint> below = closest_points(source, centres);
   int folds = 0;
   for (int f = 0; f < remesh.triangles.rows(); ++f) {
-    Eigen::Vector3d centre = Eigen::Vector3d::Zero();
-    for (int k = 0; k < 3; ++k) centre += remesh.positions.row(remesh.triangles(f, k)) / 3;
-    const int below = locator.closest(centre).triangle;
-    folds += face_normal(remesh, f).dot(face_normal(source, below)) < 0;
+    const int under = below[static_cast<std::size_t>(f)].triangle;
+    folds += face_normal(remesh, f).dot(face_normal(source, under)) < 0;
   }
   return folds;
 }
@@ -48,13 +50,17 @@ double smallest_angle(const Mesh& mesh) {
   return smallest * 180 / kPi;
 }
 
-double landmark_error(const SourceSurface& source, const Mesh& remesh,
-                      const std::vector<int>& landmarks) {
+/// Of the landmarks that the source has; `names` are those of the first source.
+double landmark_error(const SourceSurface& source, const std::vector<std::string>& names,
+                      const Mesh& remesh, const std::vector<int>& landmarks) {
   double worst = 0;
   for (std::size_t i = 0; i < landmarks.size(); ++i) {
-    const Eigen::RowVector3d at =
-        point_at(source.mesh.positions, source.mesh.triangles, source.landmarks[i]);
-    worst = std::max(worst, (remesh.positions.row(landmarks[i]) - at).norm());
+    const auto& own = source.landmark_names;
+    const auto found = std::find(own.begin(), own.end(), names[i]);
+    if (found == own.end()) continue;
+    const auto at = static_cast<std::size_t>(found - own.begin());
+    const Eigen::Vector3d place = position_of(source.mesh, source.landmarks[at]);
+    worst = std::max(worst, (remesh.positions.row(landmarks[i]).transpose() - place).norm());
   }
   return worst;
 }
@@ -71,8 +77,9 @@ std::optional<SphereQuality> sphere_quality(const SharedTriangulation& triangula
                        solid_angle(sphere, triangles) / (is_disk ? 2 * kPi : 4 * kPi)};
 }
 
-SourceQuality measure_source(const SourceSurface& source, const SharedTriangulation& triangulation,
-                             std::size_t s) {
+SourceQuality measure_source(const std::vector<SourceSurface>& surfaces,
+                             const SharedTriangulation& triangulation, std::size_t s) {
+  const SourceSurface& source = surfaces[s];
   const Mesh remesh{triangulation.geometries[s], triangulation.connectivity.triangles};
   const double diagonal = bounding_diagonal(source.mesh.positions);
   const double bound = kHausdorffBound * diagonal;
@@ -84,7 +91,9 @@ SourceQuality measure_source(const SourceSurface& source, const SharedTriangulat
   quality.self_intersections = count_self_intersections(remesh);
   quality.source_self_intersections = count_self_intersections(source.mesh);
   quality.smallest_angle = smallest_angle(remesh);
-  quality.landmark_error = landmark_error(source, remesh, triangulation.landmarks) / diagonal;
+  quality.landmark_error =
+      landmark_error(source, surfaces[0].landmark_names, remesh, triangulation.landmarks) /
+      diagonal;
   quality.sphere = sphere_quality(triangulation, s);
   return quality;
 }
@@ -101,7 +110,7 @@ TriangulationQuality measure_triangulation(const std::vector<SourceSurface>& sur
   TriangulationQuality quality;
   for (std::size_t s = 0; s < surfaces.size(); ++s) {
     advance(observer, {"measure", static_cast<int>(s), count});
-    quality.sources.push_back(measure_source(surfaces[s], triangulation, s));
+    quality.sources.push_back(measure_source(surfaces, triangulation, s));
     if (s == 0) continue;
     quality.maps.push_back(
         summarize_distortion(map_distortion(first, triangulation.geometries[s], triangles), areas));

@@ -30,15 +30,6 @@ Eigen::VectorXd vertex_areas(const Positions& positions, const Triangles& triang
   return areas;
 }
 
-Eigen::RowVector3d point_at(const Positions& positions, const Triangles& triangles,
-                            const SurfacePoint& point) {
-  Eigen::RowVector3d sum = Eigen::RowVector3d::Zero();
-  for (int k = 0; k < 3; ++k) {
-    sum += point.barycentric(k) * positions.row(triangles(point.triangle, k));
-  }
-  return sum;
-}
-
 double largest_distance(const Positions& a, const Positions& b) {
   if (a.rows() == 0) return 0;
   return std::sqrt((a - b).rowwise().squaredNorm().maxCoeff());

@@ -15,10 +15,6 @@ Eigen::VectorXd vertex_areas(const Positions& positions, const Triangles& triang
 /// One a triangle.
 Eigen::VectorXd triangle_areas(const Positions& positions, const Triangles& triangles);
 
-/// Where a point of a surface lies on another geometry of the same triangles, or its own.
-Eigen::RowVector3d point_at(const Positions& positions, const Triangles& triangles,
-                            const SurfacePoint& point);
-
 /// The largest distance between equal rows.
 double largest_distance(const Positions& a, const Positions& b);
 

@@ -2,6 +2,7 @@
 
 #include "morphbake/connectivity/shared_triangulation.h"
 #include "morphbake/diagnostics/problem.h"
+#include "morphbake/mesh/closest_point.h"
 #include "morphbake/mesh/measures.h"
 #include "shapes/shapes.h"
 
@@ -53,7 +54,7 @@ TEST(Resample, KeepsLandmarksBordersAndHardEdges) {
     for (std::size_t s = 0; s < surfaces.size(); ++s) {
       const Mesh& mesh = surfaces[s].mesh;
       EXPECT_EQ(k.geometries[s].row(k.landmarks[i]),
-                point_at(mesh.positions, mesh.triangles, surfaces[s].landmarks[i]));
+                position_of(mesh, surfaces[s].landmarks[i]).transpose());
     }
   }
   EXPECT_GE(k.hard_edges.size(), 8U);

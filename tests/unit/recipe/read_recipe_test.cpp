@@ -83,7 +83,8 @@ TEST(ReadRecipe, ResolvesNamesToIndices) {
       R"(, "regions": {"rest": {"rest_of": ["nose"]},
           "nose": {"ball": {"on": "a", "at": "nose", "inner": 0.1, "outer": 0.2}}})"));
   EXPECT_EQ(std::get<RestOfRegion>(recipe.regions[0].shape).regions, std::vector<int>{1});
-  EXPECT_EQ(std::get<BallRegion>(recipe.regions[1].shape).centre, Eigen::Vector3d(0, 0, 1));
+  const Place& centre = std::get<BallRegion>(recipe.regions[1].shape).centre;
+  EXPECT_EQ(std::get<Eigen::Vector3d>(centre), Eigen::Vector3d(0, 0, 1));
   EXPECT_EQ(recipe.timeline.tracks[0].edit.region, 0);
   EXPECT_EQ(recipe.timeline.tracks[0].edit.to, (Shares{0, 1}));
   EXPECT_EQ(recipe.timeline.tracks[0].name, "rest");
