@@ -20,6 +20,7 @@ struct Command {
 Command add_init(CLI::App& program);
 Command add_bake(CLI::App& program);
 Command add_validate(CLI::App& program);
+Command add_remesh(CLI::App& program);
 Command add_inspect(CLI::App& program);
 Command add_preview(CLI::App& program);
 Command add_config(CLI::App& program);

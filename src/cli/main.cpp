@@ -23,6 +23,7 @@ Examples:
   morphbake init egg.glb giraffe.glb         a first recipe: recipe.json
   morphbake validate recipe.json             what is wrong with it, all at once
   morphbake bake recipe.json -o out          the morph; prints the files it wrote
+  morphbake remesh recipe.json -o same       the sources on one new connectivity
   morphbake inspect out/morph.glb            targets, sizes, bounds
   morphbake preview out/morph.glb            turntable of any morph glTF
   morphbake config                           every option with its default
@@ -68,7 +69,7 @@ std::string shown_error(const CLI::App& program, const CLI::ParseError& error,
   if (!program.get_subcommands().empty()) return error.what();
   if (command_word.empty()) return "no command given";
   return "'" + std::string(command_word) +
-         "' is no command; there are init, bake, validate, inspect, preview, config";
+         "' is no command; there are init, bake, validate, remesh, inspect, preview, config";
 }
 
 void add_global_flags(CLI::App& program, GlobalFlags& flags) {
@@ -89,9 +90,9 @@ void run_program(int argc, char** argv, Terminal& terminal) {
   CLI::App program(kDescription, "morphbake");
   GlobalFlags flags;
   add_global_flags(program, flags);
-  const std::vector<Command> commands = {add_init(program),     add_bake(program),
-                                         add_validate(program), add_inspect(program),
-                                         add_preview(program),  add_config(program)};
+  const std::vector<Command> commands = {
+      add_init(program),    add_bake(program),    add_validate(program), add_remesh(program),
+      add_inspect(program), add_preview(program), add_config(program)};
   try {
     program.parse(argc, argv);
   } catch (const CLI::CallForVersion&) {

@@ -20,7 +20,7 @@ inline MorphableMesh real_mesh(const std::vector<std::string>& names) {
   for (const std::string& name : names) {
     const std::filesystem::path file =
         std::filesystem::path(MORPHBAKE_SHARED_DIR) / "meshes" / (name + ".glb");
-    sources.push_back(load_source({name, file, {}}));
+    sources.push_back(load_source({name, file, {}, {}}));
   }
   return share_connectivity(sources);
 }

@@ -1,6 +1,9 @@
 #include "morphbake/bake/bake.h"
 
+#include "morphbake/bake/connect_sources.h"
+#include "morphbake/bake/load_sources.h"
 #include "morphbake/bake/outputs.h"
+#include "morphbake/bake/places.h"
 #include "morphbake/bake/previews.h"
 #include "morphbake/bake/stage_clock.h"
 #include "morphbake/transition/regions.h"
@@ -8,46 +11,22 @@
 namespace morphbake {
 namespace {
 
-/// Loads all sources, so that the problems of all are told at once.
-std::vector<SourceMesh> load_sources(const Recipe& recipe, const Observer& observer) {
-  std::vector<SourceMesh> sources;
-  std::vector<Problem> problems;
-  const auto count = static_cast<int>(recipe.sources.size());
-  for (int s = 0; s < count; ++s) {
-    advance(observer, {"sources", s, count});
-    try {
-      sources.push_back(load_source(recipe.sources[static_cast<std::size_t>(s)]));
-    } catch (const BakeError& error) {
-      problems.insert(problems.end(), error.problems().begin(), error.problems().end());
-    }
-  }
-  if (!problems.empty()) throw BakeError(problems);
-  return sources;
-}
-
 std::filesystem::path stem_of(std::filesystem::path file) { return file.replace_extension(); }
-
-/// Lets the report keep the warnings that the caller hears.
-Observer recording(const Observer& observer, std::vector<Problem>& problems) {
-  Observer both = observer;
-  both.on_problem = [&observer, &problems](const Problem& problem) {
-    problems.push_back(problem);
-    report(observer, problem);
-  };
-  return both;
-}
 
 }  // namespace
 
-BakeReport bake(const Recipe& recipe, const BakeOptions& options, const Observer& caller) {
+BakeReport bake(const Recipe& asked, const BakeOptions& options, const Observer& caller) {
   BakeReport bake_report;
-  bake_report.recipe = recipe.name;
+  bake_report.recipe = asked.name;
   const Observer observer = recording(caller, bake_report.problems);
   StageClock clock(observer);
 
   clock.start("sources");
-  const std::vector<SourceMesh> sources = load_sources(recipe, observer);
+  std::vector<SourceMesh> loaded = load_sources(asked, observer);
+  const Recipe recipe = with_positions(asked, loaded);
   clock.start("connectivity");
+  ConnectedSources connected = connect_sources(recipe, std::move(loaded), Measuring::On, observer);
+  const std::vector<SourceMesh>& sources = connected.sources;
   const MorphableMesh mesh = share_connectivity(sources);
   clock.start("transition");
   const std::vector<Eigen::VectorXd> regions = region_distances(mesh, recipe);
@@ -77,13 +56,20 @@ BakeReport bake(const Recipe& recipe, const BakeOptions& options, const Observer
   bake_report.triangles = static_cast<int>(mesh.connectivity.triangles.rows());
   bake_report.components = timeline->system->components().count;
   bake_report.frames = static_cast<int>(frame_times(recipe.timeline).size());
+  bake_report.connectivity = std::move(connected.report);
+  bake_report.connectivity.vertices = bake_report.vertices;
+  bake_report.connectivity.triangles = bake_report.triangles;
   bake_report.solve = timeline->report;
   bake_report.stages = clock.finish();
   return bake_report;
 }
 
-void validate(const Recipe& recipe, const BakeOptions& options, const Observer& observer) {
-  const MorphableMesh mesh = share_connectivity(load_sources(recipe, observer));
+void validate(const Recipe& asked, const BakeOptions& options, const Observer& observer) {
+  std::vector<SourceMesh> loaded = load_sources(asked, observer);
+  const Recipe recipe = with_positions(asked, loaded);
+  const ConnectedSources connected =
+      connect_sources(recipe, std::move(loaded), Measuring::Off, observer);
+  const MorphableMesh mesh = share_connectivity(connected.sources);
   check_timeline(recipe, mesh, region_distances(mesh, recipe), options.solve);
 }
 

@@ -4,17 +4,13 @@
 #include <string>
 #include <vector>
 
+#include "morphbake/bake/connectivity_report.h"
 #include "morphbake/bake/options.h"
 #include "morphbake/diagnostics/observer.h"
 #include "morphbake/recipe/recipe.h"
 #include "morphbake/solve/solve_fields.h"
 
 namespace morphbake {
-
-struct StageReport {
-  std::string name;
-  double seconds = 0;
-};
 
 /// How far written normals are from those of the exact surface.
 struct NormalReport {
@@ -52,6 +48,7 @@ struct BakeReport {
   int triangles = 0;
   int components = 0;
   int frames = 0;
+  ConnectivityReport connectivity;
   SolveReport solve;
   std::vector<StageReport> stages;
   std::vector<OutputReport> outputs;

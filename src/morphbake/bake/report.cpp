@@ -1,4 +1,5 @@
 #include "morphbake/bake/bake.h"
+#include "morphbake/bake/remesh.h"
 #include "morphbake/json/json.h"
 #include "morphbake/version.h"
 
@@ -54,21 +55,107 @@ Json to_json(const SolveReport& solve) {
           {"solves", std::move(solves)}};
 }
 
+Json to_json(const std::vector<StageReport>& stages) {
+  Json list = Json::array();
+  for (const StageReport& stage : stages) {
+    list.push_back({{"name", stage.name}, {"seconds", stage.seconds}});
+  }
+  return list;
+}
+
+Json to_json(const std::vector<Problem>& problems) {
+  Json list = Json::array();
+  for (const Problem& problem : problems) list.push_back(to_json(problem));
+  return list;
+}
+
+const char* name_of(ConnectivityMode mode) {
+  if (mode == ConnectivityMode::Remesh) return "remesh";
+  return mode == ConnectivityMode::Resample ? "resample" : "shared";
+}
+
+Json to_json(const SourceQuality& quality) {
+  Json json = {{"source", quality.source},
+               {"source_to_remesh", quality.source_to_remesh},
+               {"remesh_to_source", quality.remesh_to_source},
+               {"folds", quality.folds},
+               {"self_intersections", quality.self_intersections},
+               {"source_self_intersections", quality.source_self_intersections},
+               {"smallest_angle", quality.smallest_angle},
+               {"landmark_error", quality.landmark_error}};
+  if (quality.sphere) {
+    json["sphere"] = {{"flipped_triangles", quality.sphere->flipped_triangles},
+                      {"covering", quality.sphere->covering}};
+  }
+  return json;
+}
+
+Json to_json(const MapQuality& map) {
+  return {{"source", map.source},
+          {"mean", map.mean},
+          {"median", map.median},
+          {"percentile_95", map.percentile_95},
+          {"percentile_99", map.percentile_99},
+          {"maximum", map.maximum}};
+}
+
+Json to_json(const DistortionRegion& region) {
+  Json json = {{"source", region.source},
+               {"triangles", region.triangles},
+               {"area_share", region.area_share},
+               {"centre", {region.centre(0), region.centre(1), region.centre(2)}}};
+  if (!region.nearest_landmark.empty()) {
+    json["nearest_landmark"] = region.nearest_landmark;
+    json["landmark_distance"] = region.landmark_distance;
+  }
+  json["advice"] = advice_for(region);
+  return json;
+}
+
+template <typename Item>
+Json list_of(const std::vector<Item>& items) {
+  Json list = Json::array();
+  for (const Item& item : items) list.push_back(to_json(item));
+  return list;
+}
+
+Json to_json(const ConnectivityReport& report) {
+  Json json = {{"mode", name_of(report.mode)},
+               {"vertices", report.vertices},
+               {"triangles", report.triangles}};
+  if (report.mode == ConnectivityMode::Shared) return json;
+  json["steps"] = to_json(report.steps);
+  if (!report.quality) return json;
+  json["sources"] = list_of(report.quality->sources);
+  json["distortion"] = list_of(report.quality->maps);
+  json["distorted_regions"] = list_of(report.quality->regions);
+  return json;
+}
+
 }  // namespace
 
 std::string report_to_json(const BakeReport& report) {
-  Json json = {{"morphbake", version()},          {"recipe", report.recipe},
-               {"vertices", report.vertices},     {"triangles", report.triangles},
-               {"components", report.components}, {"frames", report.frames},
+  Json json = {{"morphbake", version()},
+               {"recipe", report.recipe},
+               {"vertices", report.vertices},
+               {"triangles", report.triangles},
+               {"components", report.components},
+               {"frames", report.frames},
+               {"connectivity", to_json(report.connectivity)},
                {"solve", to_json(report.solve)}};
-  json["stages"] = Json::array();
-  for (const StageReport& stage : report.stages) {
-    json["stages"].push_back({{"name", stage.name}, {"seconds", stage.seconds}});
-  }
-  json["outputs"] = Json::array();
-  for (const OutputReport& output : report.outputs) json["outputs"].push_back(to_json(output));
-  json["problems"] = Json::array();
-  for (const Problem& problem : report.problems) json["problems"].push_back(to_json(problem));
+  json["stages"] = to_json(report.stages);
+  json["outputs"] = list_of(report.outputs);
+  json["problems"] = to_json(report.problems);
+  return json.dump(2) + "\n";
+}
+
+std::string report_to_json(const RemeshReport& report) {
+  Json json = {{"morphbake", version()},
+               {"recipe", report.recipe},
+               {"connectivity", to_json(report.connectivity)}};
+  json["files"] = Json::array();
+  for (const auto& file : report.files) json["files"].push_back(file.string());
+  json["problems"] = to_json(report.problems);
   return json.dump(2) + "\n";
 }
 

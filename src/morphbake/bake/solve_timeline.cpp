@@ -5,8 +5,8 @@
 #include <utility>
 
 #include "morphbake/json/json.h"
+#include "morphbake/mesh/closest_point.h"
 #include "morphbake/mesh/measures.h"
-#include "morphbake/transition/surface_distance.h"
 
 namespace morphbake {
 namespace {
@@ -17,7 +17,7 @@ constexpr double kChanging = 1e-12;  // shares that differ by no more are the sa
 SurfacePoint point_of(const MorphableMesh& mesh, const Gauge& gauge) {
   const Mesh surface{mesh.geometries[static_cast<std::size_t>(gauge.source)],
                      mesh.connectivity.triangles};
-  return closest_point(surface, gauge.position);
+  return closest_point(surface, std::get<Eigen::Vector3d>(gauge.at));
 }
 
 Eigen::VectorXd gauge_weights(const Recipe& recipe, const MorphableMesh& mesh,

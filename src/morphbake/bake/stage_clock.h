@@ -4,7 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "morphbake/bake/bake.h"
+#include "morphbake/bake/stage_report.h"
+#include "morphbake/diagnostics/observer.h"
 
 namespace morphbake {
 

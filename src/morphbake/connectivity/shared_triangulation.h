@@ -32,9 +32,14 @@ SharedTriangulation triangulate(const std::vector<SphericalMap>& maps, const Rem
 /// Gives sources that share their connectivity a new one, of even edges.
 ///
 /// CGAL's isotropic remeshing of the first source; each new vertex is carried to the others by its
-/// barycentric coordinates. Boundary curves, hard edges and landmarks are kept.
+/// barycentric coordinates. Boundary curves and hard edges are only ever split. The first source's
+/// landmarks are vertices, at the same place of the connectivity in every source. CGAL 5.5 has no
+/// sizing by curvature: Sizing::Curvature makes all edges finer, from target_edge_length, until
+/// every source is met within max_error or max_vertices is reached; Sizing::Uniform does not look
+/// at max_error.
 /// @param surfaces  with equal triangles
-/// @throws BakeError "connectivity...."; Cancelled
+/// @throws BakeError "connectivity.different-triangles", "connectivity.too-many-vertices";
+///         Cancelled
 SharedTriangulation resample(const std::vector<SourceSurface>& surfaces,
                              const RemeshOptions& options, const Observer& observer);
 

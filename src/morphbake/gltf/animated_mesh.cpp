@@ -178,8 +178,11 @@ void read_weights_animation(const GltfDocument& document, int node, AnimatedMesh
 }  // namespace
 
 AnimatedMesh read_animated_mesh(const std::filesystem::path& file) {
-  const GltfFile opened = open_gltf(file);
-  const GltfDocument& document = *opened;
+  return read_animated_mesh(open_gltf(file));
+}
+
+AnimatedMesh read_animated_mesh(const GltfFile& file) {
+  const GltfDocument& document = *file;
   const std::vector<MeshNode> nodes = find_mesh_nodes(document);
   const auto& meshes = document.model.meshes;
   if (nodes.empty() || nodes[0].mesh < 0 ||

@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "morphbake/gltf/gltf_file.h"
+
 namespace morphbake {
 
 using Float2s = Eigen::Matrix<float, Eigen::Dynamic, 2, Eigen::RowMajor>;
@@ -40,6 +42,7 @@ struct AnimatedMesh {
 ///
 /// @throws BakeError "gltf...." as read_gltf
 AnimatedMesh read_animated_mesh(const std::filesystem::path& file);
+AnimatedMesh read_animated_mesh(const GltfFile& file);
 
 /// Weights at `time`: linear between keys, constant before the first and after the last
 /// (glTF 2.0, 3.11).

@@ -207,9 +207,12 @@ void fail_at(const GltfDocument& document, const std::string& pointer, const std
 std::string file_of(const GltfFile& file) { return file->file.string(); }
 
 GltfFile open_gltf(const fs::path& file) {
+  return open_gltf_bytes(read_file(file, kFileSizeLimit), file);
+}
+
+GltfFile open_gltf_bytes(const std::string& bytes, const fs::path& name) {
   auto document = std::make_shared<GltfDocument>();
-  document->file = file;
-  const std::string bytes = read_file(file, kFileSizeLimit);
+  document->file = name;
   const std::size_t first = bytes.find_first_not_of(" \t\r\n");
   if (!is_binary(bytes) && (first == std::string::npos || bytes[first] != '{')) {
     fail_at(*document, "", "gltf.not-gltf", "this is neither a .glb nor the JSON of a .gltf",

@@ -20,6 +20,12 @@ using GltfFile = std::shared_ptr<const GltfDocument>;
 ///         "gltf.json-syntax", "gltf.json-duplicate-key", "gltf.json-too-deep"
 GltfFile open_gltf(const std::filesystem::path& file);
 
+/// Opens the bytes of a .glb that stands alone.
+///
+/// @param name  what messages call it
+/// @throws BakeError as open_gltf
+GltfFile open_gltf_bytes(const std::string& bytes, const std::filesystem::path& name);
+
 /// Where the file was read from.
 std::string file_of(const GltfFile& file);
 

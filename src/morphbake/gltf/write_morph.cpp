@@ -3,78 +3,20 @@
 #include <fmt/core.h>
 
 #include <array>
-#include <cstdint>
 #include <cstring>
-#include <limits>
 
-#include "morphbake/diagnostics/problem.h"
 #include "morphbake/gltf/accessors.h"
+#include "morphbake/gltf/glb_draft.h"
 #include "morphbake/gltf/source_geometry.h"
 
 namespace morphbake {
 namespace {
 
-constexpr int kFloat = 5126;
-constexpr int kArrayBuffer = 34962;
-
-/// A .glb in the making: its JSON and its one buffer.
-struct Draft {
-  Json json;
-  std::string binary;
-
-  void align() { binary.resize((binary.size() + 3) / 4 * 4, '\0'); }
-};
-
-template <typename Rows>
-Json column_minima(const Rows& rows) {
-  Json numbers = Json::array();
-  for (Eigen::Index c = 0; c < rows.cols(); ++c) {
-    numbers.push_back(rows.rows() ? static_cast<double>(rows.col(c).minCoeff()) : 0.0);
-  }
-  return numbers;
-}
-
-template <typename Rows>
-Json column_maxima(const Rows& rows) {
-  Json numbers = Json::array();
-  for (Eigen::Index c = 0; c < rows.cols(); ++c) {
-    numbers.push_back(rows.rows() ? static_cast<double>(rows.col(c).maxCoeff()) : 0.0);
-  }
-  return numbers;
-}
-
-/// Appends float data as a bufferView of its own; returns its index.
-int append_view(Draft& draft, const float* data, std::size_t count, bool of_vertices) {
-  draft.align();
-  Json view = {
-      {"buffer", 0}, {"byteOffset", draft.binary.size()}, {"byteLength", count * sizeof(float)}};
-  if (of_vertices) view["target"] = kArrayBuffer;
-  draft.binary.append(reinterpret_cast<const char*>(data), count * sizeof(float));
-  Json& views = draft.json["bufferViews"];
-  views.push_back(std::move(view));
-  return static_cast<int>(views.size()) - 1;
-}
-
-int append_accessor(Draft& draft, Json accessor) {
-  Json& accessors = draft.json["accessors"];
-  accessors.push_back(std::move(accessor));
-  return static_cast<int>(accessors.size()) - 1;
-}
-
-int append_vectors(Draft& draft, const Float3s& rows) {
-  const int view = append_view(draft, rows.data(), static_cast<std::size_t>(rows.size()), true);
-  return append_accessor(draft, {{"bufferView", view},
-                                 {"componentType", kFloat},
-                                 {"count", rows.rows()},
-                                 {"type", "VEC3"},
-                                 {"min", column_minima(rows)},
-                                 {"max", column_maxima(rows)}});
-}
-
-int append_scalars(Draft& draft, const std::vector<float>& values, bool bounded) {
-  const int view = append_view(draft, values.data(), values.size(), false);
+int append_scalars(GlbDraft& draft, const std::vector<float>& values, bool bounded) {
+  const int view =
+      append_view(draft, values.data(), values.size() * sizeof(float), BufferUse::Other);
   Json accessor = {{"bufferView", view},
-                   {"componentType", kFloat},
+                   {"componentType", kFloatComponent},
                    {"count", values.size()},
                    {"type", "SCALAR"}};
   if (bounded) {
@@ -87,8 +29,8 @@ int append_scalars(Draft& draft, const std::vector<float>& values, bool bounded)
 }
 
 /// All buffers of the source, one after the other, as buffer 0.
-Draft join_buffers(const GltfDocument& document) {
-  Draft draft{document.json, {}};
+GlbDraft join_buffers(const GltfDocument& document) {
+  GlbDraft draft{document.json, {}};
   std::vector<std::size_t> begins;
   for (const tinygltf::Buffer& buffer : document.model.buffers) {
     draft.align();
@@ -104,7 +46,7 @@ Draft join_buffers(const GltfDocument& document) {
 }
 
 /// A .glb stands alone: images in files beside the source, or in data URIs, become bufferViews.
-void embed_images(const GltfDocument& document, Draft& draft) {
+void embed_images(const GltfDocument& document, GlbDraft& draft) {
   if (!draft.json.contains("images")) return;
   for (std::size_t i = 0; i < document.model.images.size(); ++i) {
     Json& image = draft.json["images"][i];
@@ -122,7 +64,7 @@ void embed_images(const GltfDocument& document, Draft& draft) {
 }
 
 /// Writes `rows` over the elements of an accessor of the source, where they lie.
-void overwrite_vectors(const GltfDocument& document, Draft& draft, int accessor,
+void overwrite_vectors(const GltfDocument& document, GlbDraft& draft, int accessor,
                        const Float3s& rows) {
   const ElementSpan span = element_span(document, accessor, fmt::format("/accessors/{}", accessor));
   std::size_t begin = span.offset_in_buffer;
@@ -140,7 +82,7 @@ void overwrite_vectors(const GltfDocument& document, Draft& draft, int accessor,
 }
 
 void write_primitive(const GltfDocument& document, const PrimitiveMorph& morph, Json& primitive,
-                     Draft& draft) {
+                     GlbDraft& draft) {
   const Json attributes = primitive["attributes"];
   overwrite_vectors(document, draft, attributes["POSITION"].get<int>(), morph.positions);
   if (morph.normals.rows() > 0) {
@@ -154,7 +96,7 @@ void write_primitive(const GltfDocument& document, const PrimitiveMorph& morph, 
   }
 }
 
-void write_animation(const MeshMorph& morph, Draft& draft) {
+void write_animation(const MeshMorph& morph, GlbDraft& draft) {
   const Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> weights =
       morph.key_weights;
   const int input = append_scalars(draft, morph.key_times, true);
@@ -176,42 +118,12 @@ void name_targets(Json& mesh, const std::vector<std::string>& names) {
   extras["targetNames"] = names;
 }
 
-void append_u32(std::string& bytes, std::size_t value) {
-  const auto number = static_cast<std::uint32_t>(value);
-  bytes.append(reinterpret_cast<const char*>(&number), sizeof number);
-}
-
-std::string glb_bytes(const GltfDocument& document, Draft& draft) {
-  draft.align();
-  draft.json["buffers"] = Json::array({{{"byteLength", draft.binary.size()}}});
-  std::string text = draft.json.dump();
-  text.resize((text.size() + 3) / 4 * 4, ' ');
-  const std::size_t total = 12 + 8 + text.size() + 8 + draft.binary.size();
-  if (total > std::numeric_limits<std::uint32_t>::max()) {
-    throw BakeError(
-        Problem{Severity::Error,
-                "output.too-large",
-                {document.file.string(), "", 0, 0},
-                fmt::format("the result would have {} bytes; a .glb holds 4 GiB", total),
-                "use \"targets\": \"tracks\" or fewer frames"});
-  }
-  std::string bytes = "glTF";
-  append_u32(bytes, 2);
-  append_u32(bytes, total);
-  append_u32(bytes, text.size());
-  bytes += "JSON" + text;
-  append_u32(bytes, draft.binary.size());
-  bytes.append("BIN\0", 4);
-  bytes += draft.binary;
-  return bytes;
-}
-
 }  // namespace
 
 std::string write_morph_glb(const GltfFile& source, const MeshMorph& morph,
                             const std::string& generator) {
   const GltfDocument& document = *source;
-  Draft draft = join_buffers(document);
+  GlbDraft draft = join_buffers(document);
   embed_images(document, draft);
   draft.json["asset"]["generator"] = generator;
   Json& mesh = draft.json["meshes"][static_cast<std::size_t>(morph.mesh)];
@@ -227,7 +139,7 @@ std::string write_morph_glb(const GltfFile& source, const MeshMorph& morph,
     mesh["weights"] = std::move(weights);
     write_animation(morph, draft);
   }
-  return glb_bytes(document, draft);
+  return glb_bytes(draft, document.file);
 }
 
 }  // namespace morphbake

@@ -10,14 +10,22 @@ double bounding_diagonal(const Positions& positions) {
   return (positions.colwise().maxCoeff() - positions.colwise().minCoeff()).norm();
 }
 
-Eigen::VectorXd vertex_areas(const Positions& positions, const Triangles& triangles) {
-  Eigen::VectorXd areas = Eigen::VectorXd::Zero(positions.rows());
+Eigen::VectorXd triangle_areas(const Positions& positions, const Triangles& triangles) {
+  Eigen::VectorXd areas(triangles.rows());
   for (int f = 0; f < triangles.rows(); ++f) {
     const Eigen::RowVector3d a = positions.row(triangles(f, 0));
     const Eigen::RowVector3d ab = positions.row(triangles(f, 1)) - a;
     const Eigen::RowVector3d ac = positions.row(triangles(f, 2)) - a;
-    const double third = ab.cross(ac).norm() / 6;
-    for (int k = 0; k < 3; ++k) areas(triangles(f, k)) += third;
+    areas(f) = ab.cross(ac).norm() / 2;
+  }
+  return areas;
+}
+
+Eigen::VectorXd vertex_areas(const Positions& positions, const Triangles& triangles) {
+  const Eigen::VectorXd thirds = triangle_areas(positions, triangles) / 3;
+  Eigen::VectorXd areas = Eigen::VectorXd::Zero(positions.rows());
+  for (int f = 0; f < triangles.rows(); ++f) {
+    for (int k = 0; k < 3; ++k) areas(triangles(f, k)) += thirds(f);
   }
   return areas;
 }

@@ -12,6 +12,9 @@ double bounding_diagonal(const Positions& positions);
 /// A third of the areas of the adjacent triangles, one a vertex.
 Eigen::VectorXd vertex_areas(const Positions& positions, const Triangles& triangles);
 
+/// One a triangle.
+Eigen::VectorXd triangle_areas(const Positions& positions, const Triangles& triangles);
+
 /// The largest distance between equal rows.
 double largest_distance(const Positions& a, const Positions& b);
 

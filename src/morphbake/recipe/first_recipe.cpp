@@ -45,22 +45,15 @@ std::vector<std::string> unique_names(const std::vector<fs::path>& sources) {
   return names;
 }
 
-std::string relative_name(const fs::path& source, const fs::path& recipe_file) {
-  const fs::path folder = fs::absolute(recipe_file).parent_path().lexically_normal();
-  const fs::path file = fs::absolute(source).lexically_normal();
-  const fs::path relative = file.lexically_relative(folder);
-  return (relative.empty() ? file : relative).generic_string();
-}
-
 /// The first landmark of the first source that all sources have, or "".
 std::string common_landmark(const std::vector<fs::path>& sources) {
-  std::vector<std::vector<NamedPosition>> landmarks;
+  std::vector<std::vector<Landmark>> landmarks;
   for (const fs::path& source : sources) {
     const fs::path beside = landmarks_beside(source);
     if (!fs::exists(beside)) return "";
     landmarks.push_back(read_landmarks(beside, beside.string()));
   }
-  for (const NamedPosition& each : landmarks.front()) {
+  for (const Landmark& each : landmarks.front()) {
     const bool common = std::all_of(landmarks.begin(), landmarks.end(), [&](const auto& others) {
       return index_of(others, each.name) >= 0;
     });
@@ -125,6 +118,13 @@ void check_sources(const std::vector<fs::path>& sources) {
 }
 
 }  // namespace
+
+std::string relative_name(const fs::path& file, const fs::path& from) {
+  const fs::path folder = fs::absolute(from).parent_path().lexically_normal();
+  const fs::path named = fs::absolute(file).lexically_normal();
+  const fs::path relative = named.lexically_relative(folder);
+  return (relative.empty() ? named : relative).generic_string();
+}
 
 std::string first_recipe(const std::vector<fs::path>& sources, const fs::path& recipe_file,
                          const fs::path& schema) {

@@ -20,7 +20,7 @@ void read_hold(Reading& reading) {
 void read_point(Reading& reading, const Json& place, const std::string& pointer) {
   Gauge& gauge = reading.recipe.gauge;
   gauge.source = look_up(reading, reading.recipe.sources, "source", place["on"], pointer + "/on");
-  gauge.position = read_place(reading, place["at"], gauge.source, pointer + "/at");
+  gauge.at = read_place(reading, place["at"], gauge.source, pointer + "/at");
 }
 
 void read_gauge(Reading& reading) {

@@ -13,11 +13,6 @@ namespace fs = std::filesystem;
 
 constexpr double preview_pixel_limit = 5e8;
 
-/// A whole number; one that is out of range, which the schema has reported, must not overflow.
-int whole_number(const Json& json) {
-  return static_cast<int>(std::clamp(json.get<double>(), 0.0, 1e6));
-}
-
 Still read_still(Reading& reading, const Json& at, const std::string& pointer) {
   if (at.is_string()) return {state_index(reading, at, pointer)};
   const double time = at.get<double>();

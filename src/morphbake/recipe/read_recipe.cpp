@@ -59,6 +59,7 @@ void read_parts(Reading& reading) {
   if (document.value("units", "") == "scene") reading.recipe.units = Units::Scene;
   reading.recipe.options = document.value("options", Json::object()).dump();
   read_sources(reading);
+  read_connectivity(reading);
   read_regions(reading);
   read_states(reading);
   read_timeline(reading);

@@ -60,21 +60,19 @@ void check_cycles(Reading& reading) {
 
 }  // namespace
 
-Eigen::Vector3d read_place(Reading& reading, const Json& at, int source,
-                           const std::string& pointer) {
+Place read_place(Reading& reading, const Json& at, int source, const std::string& pointer) {
   if (at.is_object()) {
-    const Json& position = at["position"];
-    return {position[0].get<double>(), position[1].get<double>(), position[2].get<double>()};
+    return place_of(at, {reading.recipe.file.string(), pointer}, reading.problems);
   }
-  if (source < 0 || !reading.landmarks_known[source]) return Eigen::Vector3d::Zero();
+  if (source < 0 || !reading.landmarks_known[source]) return Eigen::Vector3d(0, 0, 0);
   const SourceRef& on = reading.recipe.sources[source];
   const auto name = at.get<std::string>();
   const int index = index_of(on.landmarks, name);
-  if (index >= 0) return on.landmarks[index].position;
+  if (index >= 0) return on.landmarks[index].at;
   complain(reading, "recipe.unknown-name", pointer,
            fmt::format("source {} has no landmark {}", shown(Json(on.name)), shown(at)),
            unknown_landmark_hint(on, name));
-  return Eigen::Vector3d::Zero();
+  return Eigen::Vector3d(0, 0, 0);
 }
 
 void read_regions(Reading& reading) {

@@ -3,7 +3,6 @@
 #include <utility>
 
 #include "morphbake/json/nearest.h"
-#include "morphbake/json/schema.h"
 #include "morphbake/recipe/reading.h"
 
 namespace morphbake {
@@ -52,18 +51,9 @@ fs::path absolute_file(const Reading& reading, const Json& as_written) {
   return (reading.folder / fs::path(as_written.get<std::string>())).lexically_normal();
 }
 
-std::vector<NamedPosition> landmarks_of(const Json& landmarks) {
-  std::vector<NamedPosition> positions;
-  for (const auto& [name, landmark] : landmarks.items()) {
-    const Json& at = landmark["position"];
-    positions.push_back({name, {at[0].get<double>(), at[1].get<double>(), at[2].get<double>()}});
-  }
-  return positions;
-}
-
 /// The landmarks of a file, or none after its problems were noted.
-std::vector<NamedPosition> try_landmarks(Reading& reading, const fs::path& file,
-                                         const std::string& name) {
+std::vector<Landmark> try_landmarks(Reading& reading, const fs::path& file,
+                                    const std::string& name) {
   try {
     return read_landmarks(file, name);
   } catch (const BakeError& error) {
@@ -79,40 +69,35 @@ std::string beside_recipe(const Reading& reading, const fs::path& name) {
   return (reading.recipe.file.parent_path() / name).lexically_normal().string();
 }
 
-std::vector<NamedPosition> source_landmarks(Reading& reading, const Json& source,
-                                            const std::string& pointer) {
+/// Fills in the landmarks of a source and where they stand.
+void read_source_landmarks(Reading& reading, const Json& source, const std::string& pointer,
+                           SourceRef& ref) {
   const Json& file = source.is_object() ? source["file"] : source;
   if (source.is_object() && source.contains("landmarks")) {
     const Json& landmarks = source["landmarks"];
-    if (landmarks.is_object()) return landmarks_of(landmarks);
-    const fs::path named = absolute_file(reading, landmarks);
-    if (check_exists(reading, named, landmarks, pointer + "/landmarks")) {
-      return try_landmarks(reading, named, beside_recipe(reading, landmarks.get<std::string>()));
+    if (landmarks.is_object()) {
+      ref.landmarks_at = {reading.recipe.file.string(), pointer + "/landmarks"};
+      ref.landmarks = landmarks_of(landmarks, ref.landmarks_at, reading.problems);
+      return;
     }
-    reading.landmarks_known.back() = false;
-    return {};
+    const fs::path named = absolute_file(reading, landmarks);
+    if (!check_exists(reading, named, landmarks, pointer + "/landmarks")) {
+      reading.landmarks_known.back() = false;
+      return;
+    }
+    ref.landmarks_at = {beside_recipe(reading, landmarks.get<std::string>()), "/landmarks"};
+    ref.landmarks = try_landmarks(reading, named, ref.landmarks_at.file);
+    return;
   }
   const fs::path beside = landmarks_beside(absolute_file(reading, file));
   std::error_code error;
-  if (!fs::is_regular_file(beside, error)) return {};
-  return try_landmarks(reading, beside,
-                       beside_recipe(reading, landmarks_beside(file.get<std::string>())));
+  if (!fs::is_regular_file(beside, error)) return;
+  ref.landmarks_at = {beside_recipe(reading, landmarks_beside(file.get<std::string>())),
+                      "/landmarks"};
+  ref.landmarks = try_landmarks(reading, beside, ref.landmarks_at.file);
 }
 
 }  // namespace
-
-fs::path landmarks_beside(const fs::path& source) {
-  fs::path beside = source;
-  return beside.replace_extension(".landmarks.json");
-}
-
-std::vector<NamedPosition> read_landmarks(const fs::path& file, const std::string& name) {
-  const Json document = read_json(file, name);
-  std::vector<Problem> problems =
-      schema_problems(document, shipped_schema("landmarks.schema.json"), {name, ""});
-  if (!problems.empty()) throw BakeError(std::move(problems));
-  return landmarks_of(document["landmarks"]);
-}
 
 void read_sources(Reading& reading) {
   for (const auto& [name, source] : reading.document["sources"].items()) {
@@ -123,8 +108,9 @@ void read_sources(Reading& reading) {
     const Json& file = is_object ? source["file"] : source;
     check_exists(reading, absolute_file(reading, file), file,
                  is_object ? pointer + "/file" : pointer);
-    std::vector<NamedPosition> landmarks = source_landmarks(reading, source, pointer);
-    reading.recipe.sources.push_back({name, absolute_file(reading, file), std::move(landmarks)});
+    SourceRef ref{name, absolute_file(reading, file), {}, {}};
+    read_source_landmarks(reading, source, pointer, ref);
+    reading.recipe.sources.push_back(std::move(ref));
   }
 }
 

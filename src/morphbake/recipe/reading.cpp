@@ -89,4 +89,9 @@ std::vector<std::vector<int>> find_cycles(const std::vector<std::vector<int>>& e
   return search.cycles;
 }
 
+/// A whole number; one that is out of range, which the schema has reported, must not overflow.
+int whole_number(const Json& json) {
+  return static_cast<int>(std::clamp(json.get<double>(), 0.0, 1e6));
+}
+
 }  // namespace morphbake

@@ -8,6 +8,7 @@
 
 #include "morphbake/diagnostics/problem.h"
 #include "morphbake/json/json.h"
+#include "morphbake/recipe/read_landmarks.h"
 #include "morphbake/recipe/recipe.h"
 
 namespace morphbake {
@@ -77,6 +78,9 @@ Shares read_shares(Reading& reading, const Json& shares, const std::string& poin
 /// The region that `parent` names in its field "region", or -1 (the whole surface).
 int read_region_field(Reading& reading, const Json& parent, const std::string& pointer);
 
+/// A whole number; one that is out of range, which the schema has reported, must not overflow.
+int whole_number(const Json& json);
+
 Ease ease_of(const Json& name);
 
 /// Index of the state called `name`; a source of that name becomes a state of its own. -1 after a
@@ -89,13 +93,13 @@ int state_index(Reading& reading, const Json& name, const std::string& pointer);
 /// @return       lists of nodes, each with an edge to the next and the last to the first
 std::vector<std::vector<int>> find_cycles(const std::vector<std::vector<int>>& edges);
 
-/// A landmark of a source, by name or position; zero after a complaint.
+/// A point of a source, by a landmark's name or itself; the origin after a complaint.
 ///
 /// @param source  index, or -1 after a complaint about it
-Eigen::Vector3d read_place(Reading& reading, const Json& at, int source,
-                           const std::string& pointer);
+Place read_place(Reading& reading, const Json& at, int source, const std::string& pointer);
 
 void read_sources(Reading& reading);
+void read_connectivity(Reading& reading);
 void read_regions(Reading& reading);
 void read_states(Reading& reading);
 void read_timeline(Reading& reading);
@@ -106,14 +110,16 @@ void read_preview(Reading& reading);
 /// Complains about outputs with equal files, and about those that would overwrite a source.
 void check_output_files(const Recipe& recipe, std::vector<Problem>& problems);
 
-/// The landmarks of a file as schemas/landmarks.schema.json describes it.
-///
-/// @param name  what messages call the file
-/// @throws BakeError with all problems found
-std::vector<NamedPosition> read_landmarks(const std::filesystem::path& file,
-                                          const std::string& name);
+/// How a JSON file calls another: from its own folder on.
+std::string relative_name(const std::filesystem::path& file, const std::filesystem::path& from);
 
-/// <folder>/<stem>.landmarks.json of a source.
-std::filesystem::path landmarks_beside(const std::filesystem::path& source);
+/// The place that a landmark's fields give; the origin after a problem.
+///
+/// @param json  as the schema has it: a known field at least, all of the right type
+Place place_of(const Json& json, const Location& location, std::vector<Problem>& problems);
+
+/// The places that an object names.
+std::vector<Landmark> landmarks_of(const Json& object, const Location& location,
+                                   std::vector<Problem>& problems);
 
 }  // namespace morphbake

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <Eigen/Core>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -8,21 +7,38 @@
 #include <variant>
 #include <vector>
 
+#include "morphbake/diagnostics/problem.h"
+#include "morphbake/recipe/landmark.h"
+
 namespace morphbake {
 
 /// Shares of the sources in a mix, one a source in the recipe's order. Sum 1, each in [0, 1].
 using Shares = std::vector<double>;
 
-/// A named point in a source's scene, close to its surface.
-struct NamedPosition {
-  std::string name;
-  Eigen::Vector3d position;  ///< scene units of the source's file
-};
-
 struct SourceRef {
   std::string name;
   std::filesystem::path file;  ///< absolute
-  std::vector<NamedPosition> landmarks;
+  std::vector<Landmark> landmarks;
+  Location landmarks_at;  ///< of the object whose fields the landmarks are, for messages
+};
+
+/// How the sources get one connectivity.
+enum class ConnectivityMode {
+  Shared,    ///< they have it already
+  Remesh,    ///< new triangles for any surfaces of one topological type
+  Resample,  ///< they have it already, and get a new one of another resolution
+};
+
+/// Where a new connectivity has its vertices: see Sizing of connectivity/remesh_options.h.
+enum class VertexSizing { Curvature, Uniform };
+
+/// The fields are those of RemeshOptions.
+struct ConnectivityRequest {
+  ConnectivityMode mode = ConnectivityMode::Shared;
+  double max_error = 0.002;
+  int max_vertices = 30000;
+  double target_edge_length = 0.03;
+  VertexSizing sizing = VertexSizing::Curvature;
 };
 
 /// How lengths in a recipe are meant.
@@ -33,10 +49,10 @@ enum class DistanceMeasure { Geodesic, Edges };
 
 /// d = 0 within `inner` of the centre, 1 beyond `outer`, linear between (Alexa 2003, section 5.1).
 struct BallRegion {
-  int source = 0;          ///< the surface on which it is measured
-  Eigen::Vector3d centre;  ///< scene units; snapped to the surface
-  double inner = 0;        ///< >= 0, in `Recipe::units`
-  double outer = 0;        ///< >= inner
+  int source = 0;    ///< the surface on which it is measured
+  Place centre;      ///< on that surface
+  double inner = 0;  ///< >= 0, in `Recipe::units`
+  double outer = 0;  ///< >= inner
   DistanceMeasure distance = DistanceMeasure::Geodesic;
 };
 
@@ -104,9 +120,9 @@ struct Gauge {
   enum class Kind { Auto, Region, Landmark, Anchor };
 
   Kind kind = Kind::Auto;
-  int region = -1;                                     ///< for Kind::Region
-  int source = 0;                                      ///< for Landmark and Anchor
-  Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< scene units; snapped to the surface
+  int region = -1;  ///< for Kind::Region
+  int source = 0;   ///< for Landmark and Anchor
+  Place at;         ///< for Landmark and Anchor: on that source's surface
 };
 
 enum class TargetKind { Tracks, Frames };
@@ -145,6 +161,7 @@ struct Recipe {
   std::string name;
   Units units = Units::Diagonal;
   std::vector<SourceRef> sources;
+  ConnectivityRequest connectivity;
   std::vector<RegionOfInterest> regions;
   std::vector<State> states;
   Timeline timeline;

@@ -61,9 +61,13 @@ std::vector<int> weld_rows(const Positions& positions, int& welded_count) {
 }
 
 SourceMesh load_source(const SourceRef& source) {
+  return read_source(source.name, open_gltf(source.file));
+}
+
+SourceMesh read_source(const std::string& name, const GltfFile& file) {
   SourceMesh mesh;
-  mesh.name = source.name;
-  mesh.file = open_gltf(source.file);
+  mesh.name = name;
+  mesh.file = file;
   mesh.geometry = read_source_geometry(mesh.file);
   Eigen::Index vertices = 0, triangles = 0;
   for (const PrimitiveGeometry& primitive : mesh.geometry.primitives) {

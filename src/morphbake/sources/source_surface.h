@@ -3,7 +3,9 @@
 #include <string>
 #include <vector>
 
+#include "morphbake/diagnostics/observer.h"
 #include "morphbake/mesh/mesh.h"
+#include "morphbake/recipe/recipe.h"
 #include "morphbake/sources/source_mesh.h"
 
 namespace morphbake {
@@ -20,5 +22,14 @@ struct SourceSurface {
   std::vector<std::string> landmark_names;
   std::vector<SurfacePoint> landmarks;  ///< one a name
 };
+
+/// The surface of one source and where its landmarks are on it.
+///
+/// Triangles that repeat a point or all points of an earlier one are dropped. Landmarks are put on
+/// the surface by landmark_points, hard edges found by find_hard_edges.
+/// @param ref  gives the landmarks
+/// @throws BakeError "connectivity.empty", "connectivity.not-manifold", "landmarks...."
+SourceSurface source_surface(const SourceMesh& source, const SourceRef& ref,
+                             const Observer& observer);
 
 }  // namespace morphbake

@@ -1,5 +1,6 @@
 #include "morphbake/transition/regions.h"
 
+#include "morphbake/mesh/closest_point.h"
 #include "morphbake/mesh/measures.h"
 #include "morphbake/transition/surface_distance.h"
 
@@ -15,7 +16,7 @@ Eigen::VectorXd soft_step(const Eigen::VectorXd& r, double inner, double outer) 
 Eigen::VectorXd ball_distance(const MorphableMesh& morphable, const BallRegion& ball, Units units) {
   const Mesh mesh{morphable.geometries[static_cast<std::size_t>(ball.source)],
                   morphable.connectivity.triangles};
-  const SurfacePoint centre = closest_point(mesh, ball.centre);
+  const SurfacePoint centre = closest_point(mesh, std::get<Eigen::Vector3d>(ball.centre));
   const Eigen::VectorXd r = ball.distance == DistanceMeasure::Edges
                                 ? edge_distances(mesh, centre)
                                 : geodesic_distances(mesh, {centre}).front();

@@ -1,8 +1,5 @@
 #include "morphbake/transition/surface_distance.h"
 
-#include <CGAL/AABB_face_graph_triangle_primitive.h>
-#include <CGAL/AABB_traits.h>
-#include <CGAL/AABB_tree.h>
 #include <CGAL/Heat_method_3/Surface_mesh_geodesic_distances_3.h>
 #include <CGAL/Simple_cartesian.h>
 #include <CGAL/Surface_mesh.h>
@@ -10,6 +7,7 @@
 
 #include <Eigen/Geometry>
 #include <array>
+#include <cassert>
 #include <limits>
 
 #include "morphbake/diagnostics/problem.h"
@@ -137,48 +135,31 @@ bool has_needles(const Mesh& mesh) {
   return false;
 }
 
+using HeatMethod =
+    CGAL::Heat_method_3::Surface_mesh_geodesic_distances_3<Surface,
+                                                           CGAL::Heat_method_3::Intrinsic_Delaunay>;
+
+/// Distances from the one source of `heat` to the first `count` vertices.
+Eigen::VectorXd distances_of(HeatMethod& heat, Surface& surface, VertexIndex source,
+                             Eigen::Index count) {
+  auto distance = surface.add_property_map<VertexIndex, double>("v:distance", 0).first;
+  heat.estimate_geodesic_distances(distance);
+  Eigen::VectorXd result(count);
+  for (int v = 0; v < count; ++v) result(v) = distance[VertexIndex(static_cast<unsigned>(v))];
+  // The heat method fixes its constant at the least value, which need not be at the source itself.
+  return (result.array() - distance[source]).max(0);
+}
+
 /// Distances from one point on a connected mesh.
 Eigen::VectorXd heat_distances(const Mesh& mesh, const SurfacePoint& centre) {
   Surface surface = to_cgal(mesh);
   const VertexIndex source = insert_point(surface, mesh, centre);
-  using Heat = CGAL::Heat_method_3::Surface_mesh_geodesic_distances_3<
-      Surface, CGAL::Heat_method_3::Intrinsic_Delaunay>;
-  Heat heat(surface);
+  HeatMethod heat(surface);
   heat.add_source(source);
-  auto distance = surface.add_property_map<VertexIndex, double>("v:distance", 0).first;
-  heat.estimate_geodesic_distances(distance);
-  Eigen::VectorXd result(mesh.positions.rows());
-  for (int v = 0; v < result.size(); ++v)
-    result(v) = distance[VertexIndex(static_cast<unsigned>(v))];
-  // The heat method fixes its constant at the least value, which need not be at the centre itself.
-  return (result.array() - distance[source]).max(0);
-}
-
-/// Barycentric coordinates of a point of the triangle: the shares of area across from each corner.
-Eigen::Vector3d barycentric(const Mesh& mesh, int triangle, const Eigen::Vector3d& point) {
-  Eigen::Matrix3d spokes;  // from the point to the corners
-  for (int k = 0; k < 3; ++k) {
-    spokes.col(k) = mesh.positions.row(mesh.triangles(triangle, k)).transpose() - point;
-  }
-  Eigen::Vector3d areas;
-  for (int k = 0; k < 3; ++k)
-    areas(k) = spokes.col((k + 1) % 3).cross(spokes.col((k + 2) % 3)).norm();
-  // In a triangle without area every corner is as good.
-  return areas.sum() > 0 ? Eigen::Vector3d(areas / areas.sum()) : Eigen::Vector3d(1, 0, 0);
+  return distances_of(heat, surface, source, mesh.positions.rows());
 }
 
 }  // namespace
-
-SurfacePoint closest_point(const Mesh& mesh, const Eigen::Vector3d& position) {
-  const Surface surface = to_cgal(mesh);
-  using Primitive = CGAL::AABB_face_graph_triangle_primitive<Surface>;
-  using Tree = CGAL::AABB_tree<CGAL::AABB_traits<Kernel, Primitive>>;
-  Tree tree(faces(surface).begin(), faces(surface).end(), surface);
-  const auto [point, face] =
-      tree.closest_point_and_primitive(Point(position.x(), position.y(), position.z()));
-  const auto triangle = static_cast<int>(face);
-  return {triangle, barycentric(mesh, triangle, Eigen::Vector3d(point.x(), point.y(), point.z()))};
-}
 
 std::vector<Eigen::VectorXd> geodesic_distances(const Mesh& mesh,
                                                 const std::vector<SurfacePoint>& centres) {
@@ -210,6 +191,38 @@ std::vector<Eigen::VectorXd> geodesic_distances(const Mesh& mesh,
     whole(part.vertex_of_part) = inside;
   }
   return distances;
+}
+
+struct VertexDistances::Heat {
+  explicit Heat(const Mesh& mesh) : surface(to_cgal(mesh)), method(surface) {}
+
+  Surface surface;
+  HeatMethod method;
+};
+
+VertexDistances::VertexDistances(const Mesh& mesh) : mesh_(mesh) {
+  if (!has_needles(mesh)) heat_ = std::make_unique<Heat>(mesh);
+}
+
+VertexDistances::~VertexDistances() = default;
+
+Eigen::VectorXd VertexDistances::from(int vertex) {
+  if (heat_) {
+    const VertexIndex source(static_cast<unsigned>(vertex));
+    heat_->method.clear_sources();
+    heat_->method.add_source(source);
+    Eigen::VectorXd distances =
+        distances_of(heat_->method, heat_->surface, source, mesh_.positions.rows());
+    if (distances.allFinite()) return distances;
+  }
+  for (int f = 0; f < mesh_.triangles.rows(); ++f) {
+    for (int k = 0; k < 3; ++k) {
+      if (mesh_.triangles(f, k) == vertex)
+        return edge_distances(mesh_, {f, Eigen::Vector3d::Unit(k)});
+    }
+  }
+  assert(false);  // every vertex of a connected mesh has a triangle
+  return {};
 }
 
 }  // namespace morphbake

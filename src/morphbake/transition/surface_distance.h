@@ -1,15 +1,11 @@
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include "morphbake/mesh/mesh.h"
 
 namespace morphbake {
-
-/// The point of the surface that is closest to `position`.
-///
-/// @cost  O(#F log #F) for the search tree
-SurfacePoint closest_point(const Mesh& mesh, const Eigen::Vector3d& position);
 
 /// Shortest distance along edges (Dijkstra) from a point, whose triangle's corners start at their
 /// straight distance to it.
@@ -29,5 +25,25 @@ Eigen::VectorXd edge_distances(const Mesh& mesh, const SurfacePoint& centre);
 /// @throws  BakeError "transition.distance-failed"
 std::vector<Eigen::VectorXd> geodesic_distances(const Mesh& mesh,
                                                 const std::vector<SurfacePoint>& centres);
+
+/// Distances from many vertices of one connected mesh, which is factorised once.
+///
+/// By the heat method as geodesic_distances; along edges where triangles are too thin for it.
+class VertexDistances {
+ public:
+  /// @param mesh  in one piece; must outlive this
+  explicit VertexDistances(const Mesh& mesh);
+  ~VertexDistances();
+  VertexDistances(const VertexDistances&) = delete;
+  VertexDistances& operator=(const VertexDistances&) = delete;
+
+  /// @return  #V, scene units, 0 or more
+  Eigen::VectorXd from(int vertex);
+
+ private:
+  struct Heat;
+  const Mesh& mesh_;
+  std::unique_ptr<Heat> heat_;  ///< none: along edges
+};
 
 }  // namespace morphbake

@@ -3,10 +3,19 @@
 #include <set>
 
 #include "morphbake/bake/bake.h"
+#include "morphbake/bake/remesh.h"
 #include "morphbake/json/schema.h"
 
 namespace morphbake {
 namespace {
+
+ConnectivityReport full_connectivity() {
+  TriangulationQuality quality;
+  quality.sources.push_back({"a", 0.001, 0.002, 1, 2, 3, 20, 0, SphereQuality{}});
+  quality.maps.push_back({"b", 1.2, 1.1, 1.5, 2, 7});
+  quality.regions.push_back({"b", 4, 0.01, {1, 2, 3}, "tip", 0.1});
+  return {ConnectivityMode::Remesh, 8, 12, {{"sphere", 0.5}}, quality};
+}
 
 BakeReport full_report() {
   BakeReport report;
@@ -17,6 +26,7 @@ BakeReport full_report() {
                   6,      2,
                   1000,   {{"nose", 0, {1, 1e-12, 1e-11, true}}, {"", 0.5, {2, 0, 0, true}}}};
   report.stages = {{"solve", 0.25}};
+  report.connectivity = full_connectivity();
   OutputReport output;
   output.file = "out/nose.glb";
   output.targets = {"nose"};
@@ -60,6 +70,32 @@ TEST(Report, FitsItsSchemaAndFillsAllOfIt) {
   collect(report, false, written);
   collect(schema, true, described);
   EXPECT_EQ(written, described);
+}
+
+TEST(Report, OfRemeshingFitsItsSchema) {
+  RemeshReport remeshed{"nose", full_connectivity(), {"out/a.glb"}, full_report().problems};
+  const Json report = parse_json(report_to_json(remeshed), "report");
+  const Json schema = shipped_schema("remesh-report.schema.json");
+  EXPECT_TRUE(schema_problems(report, schema, {"report", ""}).empty());
+  EXPECT_NE(report["connectivity"]["distorted_regions"][0]["advice"].get<std::string>().find(
+                "add a landmark at the tip near (1, 2, 3)"),
+            std::string::npos);
+}
+
+TEST(Report, OfASharedConnectivityTellsItsSizeOnly) {
+  BakeReport report = full_report();
+  report.connectivity = {ConnectivityMode::Shared, 8, 12, {}, {}};
+  const Json json = parse_json(report_to_json(report), "report");
+  EXPECT_EQ(json["connectivity"], Json({{"mode", "shared"}, {"vertices", 8}, {"triangles", 12}}));
+}
+
+TEST(ConnectivityWarnings, NameWhatIsWorthALook) {
+  const std::vector<Problem> warnings =
+      connectivity_warnings(Recipe{}, *full_connectivity().quality);
+  std::vector<std::string> codes;
+  for (const Problem& warning : warnings) codes.push_back(warning.code);
+  EXPECT_EQ(codes,
+            (std::vector<std::string>{"connectivity.folds", "connectivity.high-distortion"}));
 }
 
 }  // namespace

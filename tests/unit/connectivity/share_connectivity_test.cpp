@@ -3,29 +3,13 @@
 #include "morphbake/connectivity/morphable_mesh.h"
 #include "morphbake/diagnostics/problem.h"
 #include "shapes/shapes.h"
+#include "shapes/sources.h"
 
 namespace morphbake {
 namespace {
 
-/// A source as load_source makes it, whose file is never looked at.
-SourceMesh source_of(const Mesh& mesh, const char* name) {
-  SourceMesh source;
-  source.name = name;
-  source.positions = mesh.positions;
-  source.triangles = mesh.triangles;
-  source.welded = weld_rows(source.positions, source.welded_count);
-  return source;
-}
-
-/// Every triangle with vertices of its own: what flat shading exports.
-Mesh split_apart(const Mesh& mesh) {
-  Mesh split{Positions(mesh.triangles.size(), 3), Triangles(mesh.triangles.rows(), 3)};
-  for (Eigen::Index c = 0; c < mesh.triangles.size(); ++c) {
-    split.positions.row(c) = mesh.positions.row(mesh.triangles.data()[c]);
-    split.triangles.data()[c] = static_cast<int>(c);
-  }
-  return split;
-}
+using test::source_of;
+using test::split_apart;
 
 Mesh deformed(Mesh mesh, unsigned seed) {
   mesh.positions = test::bent(mesh.positions, 0.2, seed);

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "morphbake/connectivity/remesh_options.h"
 #include "morphbake/json/explain.h"
 #include "morphbake/json/schema.h"
 #include "recipe_folder.h"
@@ -23,7 +24,7 @@ TEST(ReadRecipe, FillsInTheDefaultsOfTheSchema) {
   const Recipe recipe = folder.read(with_timeline(
       one_track,
       R"(, "regions": {"r": {"ball": {"on": "a", "at": "nose", "inner": 0, "outer": 1}}},
-          "preview": {}, "states": {"s": {"mix": "a", "edits": [{"to": "b"}]}})"));
+          "connectivity": {"mode": "resample"}, "preview": {}, "states": {"s": {"mix": "a", "edits": [{"to": "b"}]}})"));
   const Json schema = shipped_schema("recipe.schema.json");
   const auto by_default = [&](const std::string& pointer) {
     const Json& node = schema.at(Json::json_pointer(pointer));
@@ -31,6 +32,19 @@ TEST(ReadRecipe, FillsInTheDefaultsOfTheSchema) {
   };
   EXPECT_EQ(by_default("/properties/units"), "diagonal");
   EXPECT_EQ(recipe.units, Units::Diagonal);
+  const std::string connectivity = "/definitions/connectivity/properties/";
+  EXPECT_EQ(by_default(connectivity + "mode"), "shared");
+  EXPECT_EQ(ConnectivityRequest{}.mode, ConnectivityMode::Shared);
+  const RemeshOptions options;
+  EXPECT_EQ(recipe.connectivity.max_error, options.max_error);
+  EXPECT_EQ(by_default(connectivity + "max_error"), options.max_error);
+  EXPECT_EQ(recipe.connectivity.max_vertices, options.max_vertices);
+  EXPECT_EQ(by_default(connectivity + "max_vertices"), options.max_vertices);
+  EXPECT_EQ(recipe.connectivity.target_edge_length, options.target_edge_length);
+  EXPECT_EQ(by_default(connectivity + "target_edge_length"), options.target_edge_length);
+  EXPECT_EQ(by_default(connectivity + "sizing"), "curvature");
+  EXPECT_EQ(recipe.connectivity.sizing, VertexSizing::Curvature);
+  EXPECT_EQ(options.sizing, Sizing::Curvature);
   EXPECT_EQ(by_default("/definitions/timeline/properties/fps"), recipe.timeline.frames_per_second);
   EXPECT_EQ(by_default("/definitions/track/properties/amount"),
             recipe.timeline.tracks[0].edit.amount);
@@ -69,7 +83,8 @@ TEST(ReadRecipe, ResolvesNamesToIndices) {
       R"(, "regions": {"rest": {"rest_of": ["nose"]},
           "nose": {"ball": {"on": "a", "at": "nose", "inner": 0.1, "outer": 0.2}}})"));
   EXPECT_EQ(std::get<RestOfRegion>(recipe.regions[0].shape).regions, std::vector<int>{1});
-  EXPECT_EQ(std::get<BallRegion>(recipe.regions[1].shape).centre, Eigen::Vector3d(0, 0, 1));
+  const Place& centre = std::get<BallRegion>(recipe.regions[1].shape).centre;
+  EXPECT_EQ(std::get<Eigen::Vector3d>(centre), Eigen::Vector3d(0, 0, 1));
   EXPECT_EQ(recipe.timeline.tracks[0].edit.region, 0);
   EXPECT_EQ(recipe.timeline.tracks[0].edit.to, (Shares{0, 1}));
   EXPECT_EQ(recipe.timeline.tracks[0].name, "rest");

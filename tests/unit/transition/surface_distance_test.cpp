@@ -5,28 +5,13 @@
 #include <cmath>
 #include <limits>
 
+#include "morphbake/mesh/closest_point.h"
 #include "shapes/shapes.h"
 
 namespace morphbake {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
-Eigen::Vector3d point_of(const Mesh& mesh, const SurfacePoint& at) {
-  Eigen::Vector3d point = Eigen::Vector3d::Zero();
-  for (int k = 0; k < 3; ++k) {
-    point += at.barycentric(k) * mesh.positions.row(mesh.triangles(at.triangle, k)).transpose();
-  }
-  return point;
-}
-
-TEST(ClosestPoint, LiesOnTheSurface) {
-  const Mesh mesh = test::grid(9, 9);
-  const SurfacePoint inside = closest_point(mesh, {3.3, 4.1, 2});
-  EXPECT_LT((point_of(mesh, inside) - Eigen::Vector3d(3.3, 4.1, 0)).norm(), 1e-12);
-  const SurfacePoint corner = closest_point(mesh, {-5, -5, 1});
-  EXPECT_LT(point_of(mesh, corner).norm(), 1e-12);
-}
 
 TEST(EdgeDistances, FollowTheEdges) {
   const Mesh mesh = test::grid(9, 9);  // diagonals run from lower left to upper right

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "morphbake/gltf/animated_mesh.h"
+#include "morphbake/gltf/write_mesh.h"
+#include "morphbake/sources/source_mesh.h"
+#include "morphbake/sources/source_surface.h"
+
+namespace morphbake {
+
+/// What a source's surface looks like at given points, without textures.
+struct CarriedColours {
+  std::optional<PlainMaterial> material;
+  Float3s colours;  ///< one a point: COLOR_0, or no rows when the material says it all
+};
+
+/// The colours of a source at points of its surface: COLOR_0 between the corners, times the
+/// base-colour texture there. What is finer than the points is lost.
+///
+/// Primitives of different base colours are told apart by COLOR_0; the material's factor is then
+/// white.
+/// @throws BakeError as decode_image
+CarriedColours carry_colours(const SourceMesh& source, const SourceSurface& surface,
+                             const std::vector<SurfacePoint>& points);
+
+}  // namespace morphbake

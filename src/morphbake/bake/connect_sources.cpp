@@ -1,0 +1,81 @@
+#include "morphbake/bake/connect_sources.h"
+
+#include <utility>
+
+#include "morphbake/bake/source_surfaces.h"
+#include "morphbake/bake/stage_clock.h"
+#include "morphbake/connectivity/measure_triangulation.h"
+
+namespace morphbake {
+namespace {
+
+RemeshOptions options_of(const ConnectivityRequest& request) {
+  RemeshOptions options;
+  options.max_error = request.max_error;
+  options.max_vertices = request.max_vertices;
+  options.target_edge_length = request.target_edge_length;
+  options.sizing = request.sizing == VertexSizing::Uniform ? Sizing::Uniform : Sizing::Curvature;
+  return options;
+}
+
+SharedTriangulation new_triangulation(const Recipe& recipe,
+                                      const std::vector<SourceSurface>& surfaces, StageClock& clock,
+                                      const Observer& observer) {
+  const RemeshOptions options = options_of(recipe.connectivity);
+  if (recipe.connectivity.mode == ConnectivityMode::Resample) {
+    clock.start("resample");
+    return resample(surfaces, options, observer);
+  }
+  clock.start("sphere");
+  const std::vector<SphericalMap> maps = map_to_sphere(surfaces, observer);
+  clock.start("triangulate");
+  return triangulate(maps, options, observer);
+}
+
+}  // namespace
+
+RemeshedSources remesh_sources(const Recipe& recipe, const std::vector<SourceMesh>& sources,
+                               StageClock& clock, const Observer& observer) {
+  RemeshedSources remeshed;
+  clock.start("surfaces");
+  const bool is_shared = recipe.connectivity.mode == ConnectivityMode::Resample;
+  remeshed.surfaces = is_shared ? shared_surfaces(recipe, sources, observer)
+                                : own_surfaces(recipe, sources, observer);
+  remeshed.triangulation = new_triangulation(recipe, remeshed.surfaces, clock, observer);
+  clock.start("carry");
+  remeshed.files = write_connectivity_files(sources, remeshed.surfaces, remeshed.triangulation);
+  return remeshed;
+}
+
+TriangulationQuality measured(const Recipe& recipe, const RemeshedSources& remeshed,
+                              const Observer& observer) {
+  TriangulationQuality quality =
+      measure_triangulation(remeshed.surfaces, remeshed.triangulation, observer);
+  for (const Problem& warning : connectivity_warnings(recipe, quality)) report(observer, warning);
+  return quality;
+}
+
+ConnectedSources connect_sources(const Recipe& recipe, std::vector<SourceMesh> sources,
+                                 Measuring measuring, const Observer& observer) {
+  ConnectedSources connected;
+  connected.report.mode = recipe.connectivity.mode;
+  if (recipe.connectivity.mode == ConnectivityMode::Shared) {
+    connected.sources = std::move(sources);
+    return connected;
+  }
+  StageClock clock(observer);
+  const RemeshedSources remeshed = remesh_sources(recipe, sources, clock, observer);
+  if (measuring == Measuring::On) {
+    clock.start("measure");
+    connected.report.quality = measured(recipe, remeshed, observer);
+  }
+  clock.start("read");
+  for (std::size_t s = 0; s < sources.size(); ++s) {
+    connected.sources.push_back(read_source(
+        sources[s].name, open_gltf_bytes(remeshed.files.glbs[s], recipe.sources[s].file)));
+  }
+  connected.report.steps = clock.finish();
+  return connected;
+}
+
+}  // namespace morphbake

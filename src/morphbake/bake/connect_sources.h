@@ -1,0 +1,49 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "morphbake/bake/connectivity_files.h"
+#include "morphbake/bake/connectivity_report.h"
+#include "morphbake/bake/stage_clock.h"
+#include "morphbake/diagnostics/observer.h"
+#include "morphbake/recipe/recipe.h"
+#include "morphbake/sources/source_mesh.h"
+
+namespace morphbake {
+
+/// The sources' surfaces with one new triangulation.
+struct RemeshedSources {
+  std::vector<SourceSurface> surfaces;
+  SharedTriangulation triangulation;
+  ConnectivityFiles files;
+};
+
+/// Makes the new connectivity that the recipe asks for.
+///
+/// @param recipe  of a mode other than Shared
+/// @throws BakeError "connectivity....", "correspondence...."; Cancelled
+RemeshedSources remesh_sources(const Recipe& recipe, const std::vector<SourceMesh>& sources,
+                               StageClock& clock, const Observer& observer);
+
+/// Measures a new connectivity and tells what is worth a look as warnings.
+TriangulationQuality measured(const Recipe& recipe, const RemeshedSources& remeshed,
+                              const Observer& observer);
+
+/// Whether quality is measured: baking does, checking a recipe does not.
+enum class Measuring { On, Off };
+
+/// Sources that share one connectivity: those of the recipe, or the same on a new one.
+struct ConnectedSources {
+  std::vector<SourceMesh> sources;
+  ConnectivityReport report;
+};
+
+/// New sources are read from the very bytes that `morphbake remesh` writes, so a bake gives the
+/// same from those files.
+///
+/// @throws BakeError as remesh_sources
+ConnectedSources connect_sources(const Recipe& recipe, std::vector<SourceMesh> sources,
+                                 Measuring measuring, const Observer& observer);
+
+}  // namespace morphbake

@@ -1,0 +1,168 @@
+#include "morphbake/bake/connectivity_files.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <map>
+#include <numeric>
+#include <set>
+#include <utility>
+
+#include "morphbake/bake/carried_colours.h"
+#include "morphbake/bake/source_surfaces.h"
+#include "morphbake/gltf/write_mesh.h"
+#include "morphbake/mesh/normals.h"
+#include "morphbake/version.h"
+
+namespace morphbake {
+namespace {
+
+constexpr std::uint32_t kMapsVersion = 1;
+
+/// The vertices of the files.
+struct FileVertices {
+  std::vector<int> of_corner;  ///< 3 #F: corner 3 f + k -> vertex of the file
+  std::vector<int> vertex;     ///< vertex of the file -> vertex of the triangulation
+};
+
+std::pair<int, int> edge_of(int a, int b) { return {std::min(a, b), std::max(a, b)}; }
+
+/// Joins the corners at a vertex over every edge that is not hard.
+std::vector<int> corner_fans(const Triangles& triangles,
+                             const std::set<std::pair<int, int>>& hard) {
+  std::vector<int> parent(static_cast<std::size_t>(triangles.size()));
+  std::iota(parent.begin(), parent.end(), 0);
+  const auto root = [&](int c) {
+    while (parent[static_cast<std::size_t>(c)] != c) c = parent[static_cast<std::size_t>(c)];
+    return c;
+  };
+  const auto join = [&](int a, int b) {
+    const auto [low, high] = std::minmax({root(a), root(b)});
+    parent[static_cast<std::size_t>(high)] = low;
+  };
+  std::map<std::pair<int, int>, std::pair<int, int>> corners_at;  // corners at the lower, upper end
+  for (int f = 0; f < triangles.rows(); ++f) {
+    for (int k = 0; k < 3; ++k) {
+      const int a = triangles(f, k), b = triangles(f, (k + 1) % 3);
+      if (hard.contains(edge_of(a, b))) continue;
+      std::pair<int, int> corners{3 * f + k, 3 * f + (k + 1) % 3};
+      if (a > b) std::swap(corners.first, corners.second);
+      const auto [entry, is_new] = corners_at.try_emplace(edge_of(a, b), corners);
+      if (is_new) continue;
+      join(entry->second.first, corners.first);
+      join(entry->second.second, corners.second);
+    }
+  }
+  std::vector<int> fans;
+  for (int c = 0; c < triangles.size(); ++c) fans.push_back(root(c));
+  return fans;
+}
+
+FileVertices split_vertices(const SharedTriangulation& triangulation) {
+  const Connectivity& k = triangulation.connectivity;
+  std::set<std::pair<int, int>> hard;
+  for (const Eigen::Vector2i& edge : triangulation.hard_edges) {
+    hard.insert(edge_of(edge(0), edge(1)));
+  }
+  const std::vector<int> fans = corner_fans(k.triangles, hard);
+  FileVertices vertices;
+  vertices.vertex.resize(static_cast<std::size_t>(k.vertex_count));
+  std::iota(vertices.vertex.begin(), vertices.vertex.end(), 0);
+  std::vector<int> number(fans.size(), -1);  // of a fan, by its first corner
+  std::vector<bool> taken(vertices.vertex.size(), false);
+  for (std::size_t c = 0; c < fans.size(); ++c) {
+    int& mine = number[static_cast<std::size_t>(fans[c])];
+    if (mine < 0) {
+      const int vertex = k.triangles.data()[c];
+      mine = vertex;
+      if (taken[static_cast<std::size_t>(vertex)]) {
+        mine = static_cast<int>(vertices.vertex.size());
+        vertices.vertex.push_back(vertex);
+      }
+      taken[static_cast<std::size_t>(vertex)] = true;
+    }
+    vertices.of_corner.push_back(mine);
+  }
+  return vertices;
+}
+
+std::string glb_of(const SourceMesh& source, const SourceSurface& surface,
+                   const SharedTriangulation& triangulation, std::size_t s,
+                   const FileVertices& vertices) {
+  const Positions& geometry = triangulation.geometries[s];
+  const Triangles& triangles = triangulation.connectivity.triangles;
+  CarriedColours look = carry_colours(source, surface, triangulation.on_source[s]);
+  PlainMesh mesh;
+  mesh.name = source.name;
+  mesh.copyright = copyright_of(source.file);
+  mesh.material = std::move(look.material);
+  mesh.triangles =
+      Eigen::Map<const TriangleIndices>(vertices.of_corner.data(), triangles.rows(), 3);
+  mesh.positions = geometry(vertices.vertex, Eigen::all).cast<float>();
+  if (look.colours.rows() > 0) mesh.colours = look.colours(vertices.vertex, Eigen::all);
+  Normals normals = corner_group_normals(geometry, triangles, vertices.of_corner,
+                                         static_cast<int>(vertices.vertex.size()));
+  for (auto normal : normals.rowwise()) {
+    if (normal.isZero(0)) normal << 0, 1, 0;  // no direction is right, but one must be written
+  }
+  mesh.normals = normals.cast<float>();
+  return write_mesh_glb(mesh, fmt::format("morphbake {}", version()));
+}
+
+template <typename Number>
+void append_number(std::string& bytes, Number number) {  // this machine is little-endian, as files
+  bytes.append(reinterpret_cast<const char*>(&number), sizeof number);
+}
+
+void align(std::string& bytes) { bytes.resize((bytes.size() + 7) / 8 * 8, '\0'); }
+
+void append_map(const SourceMesh& source, const SourceSurface& surface,
+                const std::vector<SurfacePoint>& points, const FileVertices& vertices,
+                std::string& bytes) {
+  append_number(bytes, static_cast<std::uint32_t>(source.name.size()));
+  append_number(bytes, static_cast<std::uint32_t>(source.triangles.rows()));
+  bytes += source.name;
+  align(bytes);
+  const std::vector<int> in_file = triangles_in_file(surface, source);
+  for (const int vertex : vertices.vertex) {
+    const SurfacePoint& point = points[static_cast<std::size_t>(vertex)];
+    append_number(bytes,
+                  static_cast<std::uint32_t>(in_file[static_cast<std::size_t>(point.triangle)]));
+  }
+  align(bytes);
+  for (const int vertex : vertices.vertex) {
+    const SurfacePoint& point = points[static_cast<std::size_t>(vertex)];
+    const auto f = static_cast<std::size_t>(point.triangle);
+    // The surface may be wound against the file; the file's corners count.
+    for (int k = 0; k < 3; ++k) {
+      const int corner = source.triangles(in_file[f], k);
+      for (std::size_t j = 0; j < 3; ++j) {
+        if (surface.render_of_corner[3 * f + j] == corner) {
+          append_number(bytes, point.barycentric(static_cast<Eigen::Index>(j)));
+        }
+      }
+    }
+  }
+}
+
+}  // namespace
+
+ConnectivityFiles write_connectivity_files(const std::vector<SourceMesh>& sources,
+                                           const std::vector<SourceSurface>& surfaces,
+                                           const SharedTriangulation& triangulation) {
+  const FileVertices vertices = split_vertices(triangulation);
+  ConnectivityFiles files;
+  files.maps = "MORPHMAP";
+  append_number(files.maps, kMapsVersion);
+  append_number(files.maps, static_cast<std::uint32_t>(vertices.vertex.size()));
+  append_number(files.maps, static_cast<std::uint32_t>(sources.size()));
+  align(files.maps);
+  for (std::size_t s = 0; s < sources.size(); ++s) {
+    files.glbs.push_back(glb_of(sources[s], surfaces[s], triangulation, s, vertices));
+    append_map(sources[s], surfaces[s], triangulation.on_source[s], vertices, files.maps);
+  }
+  return files;
+}
+
+}  // namespace morphbake

@@ -1,0 +1,82 @@
+#include "morphbake/bake/connectivity_report.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <utility>
+
+namespace morphbake {
+namespace {
+
+Problem warning(const Recipe& recipe, const char* code, std::string message, std::string hint) {
+  return {Severity::Warning,
+          code,
+          {recipe.file.string(), "/connectivity", 0, 0},
+          std::move(message),
+          std::move(hint)};
+}
+
+void add_source_warnings(const Recipe& recipe, const SourceQuality& quality,
+                         std::vector<Problem>& warnings) {
+  const double bound = recipe.connectivity.max_error;
+  const double reached = std::max(quality.source_to_remesh, quality.remesh_to_source);
+  if (reached > bound) {
+    warnings.push_back(warning(
+        recipe, "connectivity.error-not-reached",
+        fmt::format("\"{}\" is met within {:.2g} of its diagonal, not within max_error ({:.2g})",
+                    quality.source, reached, bound),
+        "allow more max_vertices, or a larger max_error"));
+  }
+  if (quality.folds > 0) {
+    warnings.push_back(
+        warning(recipe, "connectivity.folds",
+                fmt::format("{} new triangles of \"{}\" face against its surface", quality.folds,
+                            quality.source),
+                "look at the red places of the sheet; landmarks there, or a finer mesh, help"));
+  }
+  if (const int more = quality.self_intersections - quality.source_self_intersections; more > 0) {
+    warnings.push_back(warning(
+        recipe, "connectivity.self-intersections",
+        fmt::format("{} pairs of new triangles of \"{}\" cut one another; {} of the source "
+                    "did already",
+                    quality.self_intersections, quality.source, quality.source_self_intersections),
+        "a smaller max_error keeps thin parts apart"));
+  }
+}
+
+}  // namespace
+
+std::string advice_for(const DistortionRegion& region) {
+  const Eigen::RowVector3d& at = region.centre;
+  const std::string place = fmt::format("({:.4g}, {:.4g}, {:.4g})", at(0), at(1), at(2));
+  if (region.nearest_landmark.empty()) {
+    return fmt::format("add a landmark at the tip near {} on every source", place);
+  }
+  return fmt::format(
+      "add a landmark at the tip near {}, {:.2g} of the diagonal from \"{}\", on every source",
+      place, region.landmark_distance, region.nearest_landmark);
+}
+
+std::vector<Problem> connectivity_warnings(const Recipe& recipe,
+                                           const TriangulationQuality& quality) {
+  std::vector<Problem> warnings;
+  for (const SourceQuality& source : quality.sources) {
+    add_source_warnings(recipe, source, warnings);
+  }
+  for (const MapQuality& map : quality.maps) {
+    const auto largest =
+        std::find_if(quality.regions.begin(), quality.regions.end(),
+                     [&](const DistortionRegion& region) { return region.source == map.source; });
+    if (largest == quality.regions.end()) continue;
+    warnings.push_back(warning(
+        recipe, "connectivity.high-distortion",
+        fmt::format("{} triangles of {:.2g} % of the area are distorted more than {:g} times on "
+                    "the way to \"{}\"; the worst triangle {:.3g} times",
+                    largest->triangles, 100 * largest->area_share, kHighDistortion, map.source,
+                    map.maximum),
+        advice_for(*largest)));
+  }
+  return warnings;
+}
+
+}  // namespace morphbake

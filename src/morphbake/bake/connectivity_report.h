@@ -1,0 +1,30 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "morphbake/bake/stage_report.h"
+#include "morphbake/connectivity/measure_triangulation.h"
+#include "morphbake/diagnostics/problem.h"
+#include "morphbake/recipe/recipe.h"
+
+namespace morphbake {
+
+/// How the sources got one connectivity.
+struct ConnectivityReport {
+  ConnectivityMode mode = ConnectivityMode::Shared;
+  int vertices = 0;
+  int triangles = 0;
+  std::vector<StageReport> steps;               ///< none when the sources shared one
+  std::optional<TriangulationQuality> quality;  ///< of new triangles, when it was measured
+};
+
+/// What is worth a look in a new connectivity, at most one warning of each kind a source.
+std::vector<Problem> connectivity_warnings(const Recipe& recipe,
+                                           const TriangulationQuality& quality);
+
+/// What helps a region of high distortion: "add a landmark at the tip ...".
+std::string advice_for(const DistortionRegion& region);
+
+}  // namespace morphbake

@@ -1,0 +1,96 @@
+#include "morphbake/bake/remesh.h"
+
+#include <fmt/core.h>
+
+#include <utility>
+
+#include "morphbake/bake/connect_sources.h"
+#include "morphbake/bake/connectivity_sheet.h"
+#include "morphbake/bake/load_sources.h"
+#include "morphbake/files/files.h"
+#include "morphbake/json/json.h"
+
+namespace morphbake {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Before any work: whether there is work, and whether it would replace what it reads.
+void check_request(const Recipe& recipe, const std::vector<fs::path>& files) {
+  std::vector<Problem> problems;
+  if (recipe.connectivity.mode == ConnectivityMode::Shared) {
+    problems.push_back({Severity::Error,
+                        "recipe.bad-value",
+                        {recipe.file.string(), "/connectivity/mode", 0, 0},
+                        "the mode \"shared\" makes no new triangles",
+                        "write \"connectivity\": {\"mode\": \"remesh\"} or \"resample\""});
+  }
+  for (const SourceRef& source : recipe.sources) {
+    if (source.name.find_first_of("/\\") == std::string::npos) continue;
+    problems.push_back({Severity::Error,
+                        "recipe.bad-value",
+                        {recipe.file.string(), child_pointer("/sources", source.name), 0, 0},
+                        fmt::format("\"{}\" is no file name", source.name),
+                        "the source's name becomes that of a file: leave slashes out"});
+  }
+  for (const fs::path& file : files) {
+    for (const SourceRef& source : recipe.sources) {
+      std::error_code error;
+      const bool is_same = fs::absolute(file).lexically_normal() == source.file;
+      if (!is_same && !fs::equivalent(file, source.file, error)) continue;
+      problems.push_back({Severity::Error,
+                          "recipe.overwrites-source",
+                          {recipe.file.string(), child_pointer("/sources", source.name), 0, 0},
+                          fmt::format("{} would replace a source", file.string()),
+                          "write into another folder with --output-dir"});
+    }
+  }
+  if (!problems.empty()) throw BakeError(std::move(problems));
+}
+
+}  // namespace
+
+std::vector<fs::path> remeshed_files(const Recipe& recipe, const fs::path& folder,
+                                     SheetRequest sheet) {
+  std::vector<fs::path> files;
+  for (const SourceRef& source : recipe.sources) files.push_back(folder / (source.name + ".glb"));
+  files.push_back(folder / (recipe.name + ".maps.bin"));
+  if (sheet == SheetRequest::Make) files.push_back(folder / (recipe.name + ".connectivity.png"));
+  return files;
+}
+
+RemeshReport remesh(const Recipe& recipe, const BakeOptions& options, const fs::path& folder,
+                    SheetRequest sheet, const Observer& caller) {
+  RemeshReport result;
+  result.recipe = recipe.name;
+  result.files = remeshed_files(recipe, folder, sheet);
+  check_request(recipe, result.files);
+  const Observer observer = recording(caller, result.problems);
+  StageClock clock(observer);
+  clock.start("sources");
+  const std::vector<SourceMesh> sources = load_sources(recipe, observer);
+  const RemeshedSources remeshed = remesh_sources(recipe, sources, clock, observer);
+  clock.start("measure");
+  ConnectivityReport& connectivity = result.connectivity;
+  connectivity.mode = recipe.connectivity.mode;
+  connectivity.vertices = remeshed.triangulation.connectivity.vertex_count;
+  connectivity.triangles = static_cast<int>(remeshed.triangulation.connectivity.triangles.rows());
+  connectivity.quality = measured(recipe, remeshed, observer);
+  PendingOutputs outputs;
+  const std::size_t count = sources.size();
+  if (sheet == SheetRequest::Make) {
+    clock.start("sheet");
+    const Image picture = connectivity_sheet(sources, remeshed, options, observer);
+    outputs.stage(result.files[count + 1], encode_png(picture));
+  }
+  clock.start("write");
+  for (std::size_t s = 0; s < count; ++s) {
+    outputs.stage(result.files[s], remeshed.files.glbs[s]);
+  }
+  outputs.stage(result.files[count], remeshed.files.maps);
+  outputs.commit();
+  connectivity.steps = clock.finish();
+  return result;
+}
+
+}  // namespace morphbake

@@ -1,0 +1,105 @@
+#include "morphbake/bake/source_surfaces.h"
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <utility>
+
+#include "morphbake/connectivity/morphable_mesh.h"
+#include "morphbake/sources/common_landmarks.h"
+#include "morphbake/sources/corner_surface.h"
+#include "morphbake/sources/hard_edges.h"
+#include "morphbake/sources/places.h"
+
+namespace morphbake {
+namespace {
+
+using Corners = std::array<int, 3>;
+
+Corners sorted(Corners corners) {
+  std::sort(corners.begin(), corners.end());
+  return corners;
+}
+
+Corners corners_of(const std::vector<int>& render_of_corner, std::size_t f) {
+  return {render_of_corner[3 * f], render_of_corner[3 * f + 1], render_of_corner[3 * f + 2]};
+}
+
+/// The shared surface as corners of the files' triangles, which are the same in all of them.
+CornerSurface corner_surface(const MorphableMesh& shared, const SourceMesh& first) {
+  SourceSurface surface;
+  surface.render_of_corner = shared.render_of_corner;
+  const std::vector<int> in_file = triangles_in_file(surface, first);
+  CornerSurface corners;
+  corners.connectivity = shared.connectivity;
+  corners.vertex_of_corner.assign(static_cast<std::size_t>(first.triangles.size()), -1);
+  for (std::size_t c = 0; c < shared.render_of_corner.size(); ++c) {
+    const int f = in_file[c / 3];
+    int k = 0;
+    while (first.triangles(f, k) != shared.render_of_corner[c]) ++k;
+    corners.file_corner.push_back(3 * f + k);
+    corners.vertex_of_corner[static_cast<std::size_t>(3 * f + k)] =
+        shared.connectivity.triangles.data()[c];
+  }
+  return corners;
+}
+
+}  // namespace
+
+std::vector<SourceSurface> own_surfaces(const Recipe& recipe,
+                                        const std::vector<SourceMesh>& sources,
+                                        const Observer& observer) {
+  std::vector<SourceSurface> surfaces;
+  std::vector<Problem> problems;
+  for (std::size_t s = 0; s < sources.size(); ++s) {
+    try {
+      surfaces.push_back(source_surface(sources[s], recipe.sources[s], observer));
+    } catch (const BakeError& error) {
+      problems.insert(problems.end(), error.problems().begin(), error.problems().end());
+    }
+  }
+  if (!problems.empty()) throw BakeError(std::move(problems));
+  return with_common_landmarks(std::move(surfaces), observer);
+}
+
+std::vector<SourceSurface> shared_surfaces(const Recipe& recipe,
+                                           const std::vector<SourceMesh>& sources,
+                                           const Observer& observer) {
+  const MorphableMesh shared = share_connectivity(sources);
+  const CornerSurface corners = corner_surface(shared, sources[0]);
+  std::vector<SourceSurface> surfaces;
+  for (std::size_t s = 0; s < sources.size(); ++s) {
+    const SourceRef& ref = recipe.sources[s];
+    SourceSurface& surface = surfaces.emplace_back();
+    surface.name = sources[s].name;
+    surface.file = ref.file.string();
+    surface.mesh = {shared.geometries[s], shared.connectivity.triangles};
+    surface.render_of_corner = render_corners(sources[s], corners);
+    surface.vertex_of_render.assign(static_cast<std::size_t>(sources[s].positions.rows()), -1);
+    for (std::size_t c = 0; c < surface.render_of_corner.size(); ++c) {
+      surface.vertex_of_render[static_cast<std::size_t>(surface.render_of_corner[c])] =
+          surface.mesh.triangles.data()[c];
+    }
+    surface.hard_edges = find_hard_edges(sources[s], corners, surface.mesh);
+    for (const Landmark& landmark : ref.landmarks) surface.landmark_names.push_back(landmark.name);
+    surface.landmarks = landmark_points(sources[s], corners, surface.mesh, ref, observer);
+  }
+  return surfaces;
+}
+
+std::vector<int> triangles_in_file(const SourceSurface& surface, const SourceMesh& source) {
+  std::vector<int> in_file;
+  int at = 0;
+  for (std::size_t f = 0; f < surface.render_of_corner.size() / 3; ++f) {
+    const Corners wanted = sorted(corners_of(surface.render_of_corner, f));
+    const auto corners = [&] {
+      return sorted({source.triangles(at, 0), source.triangles(at, 1), source.triangles(at, 2)});
+    };
+    while (corners() != wanted) ++at;  // triangles that the surface dropped
+    assert(at < source.triangles.rows());
+    in_file.push_back(at++);
+  }
+  return in_file;
+}
+
+}  // namespace morphbake

@@ -1,0 +1,110 @@
+#include "morphbake/landmarks/correspondences.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "morphbake/mesh/measures.h"
+#include "morphbake/mesh/normals.h"
+
+namespace morphbake {
+namespace {
+
+constexpr double kPlaceWeight = 1;
+constexpr double kFacingWeight = 0.03;
+constexpr double kDistanceLimit = 0.3;  // of the squares of differences, as in alignments
+constexpr double kNear = 0.2;           // in `reach`: how near a landmark must be to count most
+constexpr double kApart = 0.2;          // in `reach`: least distance between landmarks
+constexpr double kOffPlane = 0.06;      // of the diagonal: nearer to the mirror plane is on it
+
+Normals vertex_normals(const Mesh& mesh) {
+  std::vector<int> groups(static_cast<std::size_t>(mesh.triangles.size()));
+  std::copy_n(mesh.triangles.data(), groups.size(), groups.begin());
+  return corner_group_normals(mesh.positions, mesh.triangles, groups,
+                              static_cast<int>(mesh.positions.rows()));
+}
+
+}  // namespace
+
+Side::Side(const ShapeSketch& shape)
+    : sketch(shape),
+      symmetry(find_symmetry(shape)),
+      distances(shape.mesh),
+      normals(vertex_normals(shape.mesh)) {}
+
+double Side::to_landmark(int vertex) const {
+  double nearest = std::numeric_limits<double>::infinity();
+  for (const Eigen::VectorXd& distance : from_landmark) {
+    nearest = std::min(nearest, distance(vertex));
+  }
+  return nearest;
+}
+
+int Side::twin(int vertex) const {
+  const double diagonal = bounding_diagonal(sketch.mesh.positions);
+  const bool is_off = std::abs(symmetry.side_of(position(vertex))) > kOffPlane * diagonal;
+  return symmetry.is_exact && is_off ? across(vertex) : -1;
+}
+
+int Side::across(int vertex) const {
+  const Eigen::RowVector3d image = symmetry.across(position(vertex)).transpose();
+  int closest = 0;
+  (sketch.mesh.positions.rowwise() - image).rowwise().squaredNorm().minCoeff(&closest);
+  return closest;
+}
+
+void add_pair(Correspondences& all, int a, int b, PairKind kind, bool mirrors_last) {
+  if (!mirrors_last) ++all.units;
+  all.pairs.push_back({a, b, kind, all.units});
+  all.a.from_landmark.push_back(all.a.distances.from(a) / all.a.sketch.reach);
+  all.b.from_landmark.push_back(all.b.distances.from(b) / all.b.sketch.reach);
+}
+
+std::optional<int> transferred(const Side& from, const Side& to, int vertex) {
+  const Eigen::Vector3d place = from.frame.in_box(from.position(vertex));
+  const Eigen::Vector3d facing = from.frame.axes.transpose() * from.normals.row(vertex).transpose();
+  Eigen::VectorXd cost(to.sketch.mesh.positions.rows());
+  for (int v = 0; v < cost.size(); ++v) {
+    const Eigen::Vector3d other = to.frame.axes.transpose() * to.normals.row(v).transpose();
+    cost(v) = kPlaceWeight * (to.frame.in_box(to.position(v)) - place).squaredNorm() +
+              kFacingWeight * (1 - facing.dot(other));
+  }
+  double weights = 0;
+  Eigen::VectorXd differences = Eigen::VectorXd::Zero(cost.size());
+  for (std::size_t k = 0; k < from.from_landmark.size(); ++k) {
+    const double distance = from.from_landmark[k](vertex);
+    const double weight = 1 / ((kNear + distance) * (kNear + distance));
+    differences.array() +=
+        weight * (to.from_landmark[k].array() - distance).square().min(kDistanceLimit);
+    weights += weight;
+  }
+  if (weights > 0) cost += differences / weights;
+  int best = 0;
+  cost.minCoeff(&best);
+  if (to.to_landmark(best) < kApart) return std::nullopt;
+  return best;
+}
+
+int add_transferred(Correspondences& all, const Transfer& transfer, int most) {
+  const bool on_a = transfer.on_a;
+  const Side& from = on_a ? all.a : all.b;
+  const Side& to = on_a ? all.b : all.a;
+  const int needed = transfer.twin < 0 ? 1 : 2;
+  if (most < needed) return 0;
+  const auto add = [&](int here, bool mirrors_last) {
+    if (from.to_landmark(here) < kApart) return false;
+    std::optional<int> there = transferred(from, to, here);
+    // The other shape's own symmetry is more exact than two searches.
+    if (mirrors_last && to.symmetry.is_exact) {
+      there = to.across(on_a ? all.pairs.back().b : all.pairs.back().a);
+      if (to.to_landmark(*there) < kApart) there.reset();
+    }
+    if (!there) return false;
+    add_pair(all, on_a ? here : *there, on_a ? *there : here, transfer.kind, mirrors_last);
+    return true;
+  };
+  if (!add(transfer.vertex, false)) return 0;
+  return transfer.twin >= 0 && add(transfer.twin, true) ? 2 : 1;
+}
+
+}  // namespace morphbake

@@ -1,0 +1,302 @@
+#include "morphbake/landmarks/suggest.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <utility>
+
+#include "morphbake/landmarks/correspondences.h"
+#include "morphbake/landmarks/surface_places.h"
+#include "morphbake/mesh/measures.h"
+
+namespace morphbake {
+namespace {
+
+constexpr int kFewest = 3;
+constexpr double kFarthest = 0.15;       // in `reach`: nearer points say nothing new
+constexpr double kMirrorFits = 0.3;      // of the distance without a mirror
+constexpr double kMirrorMatters = 0.01;  // of the diagonal
+constexpr double kOnRim = 0.15;          // in `reach`: such a tip is a corner of the rim
+
+/// A tip, or a mirrored pair of tips, that waits to become landmarks.
+struct TipUnit {
+  double prominence = 0;
+  std::vector<std::pair<int, int>> tips;  ///< of a and b; -1 where the shape has none
+};
+
+void warn(const Observer& observer, const SourceSurface& surface, const char* code,
+          std::string message, std::string hint) {
+  report(observer,
+         Problem{Severity::Warning, code, {surface.file, ""}, std::move(message), std::move(hint)});
+}
+
+void warn_of_pieces(const Observer& observer, const SourceSurface& surface,
+                    const ShapeSketch& sketch) {
+  if (sketch.pieces == 1) return;
+  warn(observer, surface, "landmarks.several-pieces",
+       fmt::format("\"{}\" has {} pieces; landmarks are proposed on the largest", surface.name,
+                   sketch.pieces),
+       "give the other pieces landmarks by hand");
+}
+
+void warn_of_mirror(const Observer& observer, const SourceSurface& a, const SourceSurface& b,
+                    const Correspondences& all, const Alignment& kept) {
+  const Alignment mirrored = align_shapes(all.a.sketch, all.b.sketch, Handedness::Mirrored);
+  const double apart = surface_distance(all.a.sketch, all.b.sketch, kept, Handedness::Kept);
+  const double in_mirror =
+      surface_distance(all.a.sketch, all.b.sketch, mirrored, Handedness::Mirrored);
+  if (!(apart > kMirrorMatters) || !(in_mirror < kMirrorFits * apart)) return;
+  warn(observer, b, "landmarks.mirrored",
+       fmt::format("\"{}\" is a mirror image of \"{}\": their surfaces differ by {:.2g} % of the "
+                   "diagonal in a mirror, by {:.2g} % without",
+                   b.name, a.name, 100 * in_mirror, 100 * apart),
+       "mirror one of the files, or the morph turns inside out where they differ; the landmarks "
+       "keep left to left");
+}
+
+/// How far a tip of a shape stands out; of a pair, the less prominent of both.
+double prominence_of(const Side& side, int tip) {
+  const int across = side.symmetry.mirrored[static_cast<std::size_t>(tip)];
+  const double own = side.sketch.tips[static_cast<std::size_t>(tip)].prominence;
+  return across < 0 ? own
+                    : std::min(own, side.sketch.tips[static_cast<std::size_t>(across)].prominence);
+}
+
+bool is_on_rim(const Side& side, int tip) {
+  const Eigen::VectorXd& distance = side.sketch.from_tip[static_cast<std::size_t>(tip)];
+  return std::any_of(side.sketch.boundary.begin(), side.sketch.boundary.end(),
+                     [&](int vertex) { return distance(vertex) < kOnRim; });
+}
+
+/// The matched tips, pairs together, the most prominent first.
+std::vector<TipUnit> matched_units(const Side& a, const Side& b, const std::vector<int>& partner) {
+  std::vector<TipUnit> units;
+  std::vector<char> is_done(partner.size(), 0);
+  for (std::size_t i = 0; i < partner.size(); ++i) {
+    if (partner[i] < 0 || is_done[i] != 0) continue;
+    const auto tip = static_cast<int>(i);
+    if (is_on_rim(a, tip) || is_on_rim(b, partner[i])) continue;
+    TipUnit unit{(prominence_of(a, tip) + prominence_of(b, partner[i])) / 2, {{tip, partner[i]}}};
+    int across = a.symmetry.mirrored[i];
+    if (!a.symmetry.found && b.symmetry.found) {
+      const int other = b.symmetry.mirrored[static_cast<std::size_t>(partner[i])];
+      const auto found = std::find(partner.begin(), partner.end(), other);
+      across = other < 0 || found == partner.end() ? -1 : static_cast<int>(found - partner.begin());
+    }
+    is_done[i] = 1;
+    if (across >= 0 && across != tip && partner[static_cast<std::size_t>(across)] >= 0 &&
+        is_done[static_cast<std::size_t>(across)] == 0) {
+      unit.tips.emplace_back(across, partner[static_cast<std::size_t>(across)]);
+      is_done[static_cast<std::size_t>(across)] = 1;
+    }
+    units.push_back(std::move(unit));
+  }
+  std::stable_sort(units.begin(), units.end(),
+                   [](const TipUnit& x, const TipUnit& y) { return x.prominence > y.prominence; });
+  return units;
+}
+
+/// Tips that have no partner, of both shapes, the most prominent first.
+std::vector<TipUnit> lonely_units(const Side& a, const Side& b, const std::vector<int>& partner) {
+  std::vector<TipUnit> units;
+  for (std::size_t i = 0; i < partner.size(); ++i) {
+    const auto tip = static_cast<int>(i);
+    if (partner[i] < 0 && !is_on_rim(a, tip)) units.push_back({prominence_of(a, tip), {{tip, -1}}});
+  }
+  for (int j = 0; j < static_cast<int>(b.sketch.tips.size()); ++j) {
+    const bool has_partner = std::find(partner.begin(), partner.end(), j) != partner.end();
+    if (!has_partner && !is_on_rim(b, j)) units.push_back({prominence_of(b, j), {{-1, j}}});
+  }
+  std::stable_sort(units.begin(), units.end(),
+                   [](const TipUnit& x, const TipUnit& y) { return x.prominence > y.prominence; });
+  return units;
+}
+
+int room(const Correspondences& all, int count) {
+  return count - static_cast<int>(all.pairs.size());
+}
+
+void add_tips(Correspondences& all, const std::vector<int>& partner, int count) {
+  const auto tip_vertex = [](const Side& side, int tip) {
+    return side.sketch.tips[static_cast<std::size_t>(tip)].vertex;
+  };
+  for (const TipUnit& unit : matched_units(all.a, all.b, partner)) {
+    if (static_cast<int>(unit.tips.size()) > room(all, count)) continue;
+    for (std::size_t i = 0; i < unit.tips.size(); ++i) {
+      add_pair(all, tip_vertex(all.a, unit.tips[i].first), tip_vertex(all.b, unit.tips[i].second),
+               PairKind::Tip, i > 0);
+    }
+  }
+  for (const TipUnit& unit : lonely_units(all.a, all.b, partner)) {
+    const auto [a, b] = unit.tips.front();
+    const Side& side = a >= 0 ? all.a : all.b;
+    const int tip = a >= 0 ? a : b;
+    const int across = side.symmetry.mirrored[static_cast<std::size_t>(tip)];
+    const int twin = across >= 0 && across != tip ? tip_vertex(side, across) : -1;
+    add_transferred(all, {a >= 0, tip_vertex(side, tip), twin, PairKind::Tip}, room(all, count));
+  }
+}
+
+/// The vertex of a loop that reaches furthest in a direction of the shape's box.
+int furthest_on_rim(const Side& side, const Eigen::Vector3d& direction) {
+  const std::vector<int>& rim = side.sketch.boundary;
+  const auto reach = [&](int vertex) {
+    return direction.dot(side.frame.in_box(side.position(vertex)));
+  };
+  return *std::max_element(rim.begin(), rim.end(),
+                           [&](int x, int y) { return reach(x) < reach(y); });
+}
+
+/// Four points of the rims: the furthest along the two axes in which they are widest.
+void add_rim(Correspondences& all, int count) {
+  if (all.a.sketch.boundary.empty() || all.b.sketch.boundary.empty()) return;
+  std::array<std::pair<double, int>, 3> widths;
+  for (int axis = 0; axis < 3; ++axis) {
+    const Eigen::Vector3d direction = Eigen::Vector3d::Unit(axis);
+    const auto at = [&](double sign) {
+      const int vertex = furthest_on_rim(all.a, sign * direction);
+      return all.a.frame.in_box(all.a.position(vertex))(axis);
+    };
+    widths[static_cast<std::size_t>(axis)] = {at(-1) - at(1), axis};  // the widest first
+  }
+  std::sort(widths.begin(), widths.end());
+  for (std::size_t i = 0; i < 2; ++i) {
+    const Eigen::Vector3d direction = Eigen::Vector3d::Unit(widths[i].second);
+    const Eigen::Vector3d sideways = all.a.frame.axes.transpose() * all.a.symmetry.sideways;
+    const bool is_pair = all.a.symmetry.found && std::abs(sideways.dot(direction)) > 0.7;
+    for (const double sign : {1.0, -1.0}) {
+      if (room(all, count) < 1) return;
+      add_pair(all, furthest_on_rim(all.a, sign * direction),
+               furthest_on_rim(all.b, sign * direction), PairKind::Rim, is_pair && sign < 0);
+    }
+  }
+}
+
+/// Points of the first shape that are far from all landmarks, until there are enough.
+void add_far_points(Correspondences& all, int count) {
+  const Eigen::Index vertices = all.a.sketch.mesh.positions.rows();
+  Eigen::VectorXd nearest =
+      Eigen::VectorXd::Constant(vertices, std::numeric_limits<double>::infinity());
+  std::size_t seen = 0;
+  while (room(all, count) > 0) {
+    for (; seen < all.a.from_landmark.size(); ++seen) {
+      nearest = nearest.cwiseMin(all.a.from_landmark[seen]);
+    }
+    int next = 0;
+    if (all.pairs.empty()) {
+      // The top: any first point would do, but this one is found on both shapes.
+      all.a.sketch.mesh.positions.col(1).maxCoeff(&next);
+      nearest(next) = 0;
+    } else if (nearest.maxCoeff(&next) < kFarthest) {
+      return;
+    }
+    // Where a landmark of the other shape is in the way, the next farthest is tried.
+    const Transfer single{true, next, -1, PairKind::Point};
+    const Transfer pair{true, next, all.a.twin(next), PairKind::Point};
+    const int added = add_transferred(all, room(all, count) > 1 ? pair : single, room(all, count));
+    if (added == 0) nearest(next) = 0;
+  }
+}
+
+/// Whose sides are called left and right: the shape that looks more along Z.
+const Side& reference_side(const Correspondences& all, bool& is_a) {
+  const auto clearness = [](const Symmetry& symmetry) {
+    return symmetry.found ? std::abs(symmetry.sideways.x()) : -1.0;
+  };
+  is_a = clearness(all.a.symmetry) >= clearness(all.b.symmetry);
+  return is_a ? all.a : all.b;
+}
+
+std::vector<std::string> names_of_pairs(const Correspondences& all) {
+  std::map<int, int> members;  // unit -> pairs
+  for (const VertexPair& pair : all.pairs) ++members[pair.unit];
+  bool is_a = true;
+  const Side& side = reference_side(all, is_a);
+  std::map<PairKind, int> numbers;
+  std::map<int, int> number_of_unit;
+  std::vector<std::string> names;
+  for (const VertexPair& pair : all.pairs) {
+    if (!number_of_unit.contains(pair.unit)) number_of_unit[pair.unit] = ++numbers[pair.kind];
+    const char* kind = pair.kind == PairKind::Tip   ? "tip"
+                       : pair.kind == PairKind::Rim ? "rim"
+                                                    : "point";
+    std::string name = fmt::format("{}_{}", kind, number_of_unit[pair.unit]);
+    if (members[pair.unit] == 2) {
+      const double x = side.symmetry.side_of(side.position(is_a ? pair.a : pair.b));
+      name += x > 0 ? "_left" : "_right";
+    }
+    // Two on one side: a pair that is none.
+    if (std::find(names.begin(), names.end(), name) != names.end()) name += "_too";
+    names.push_back(std::move(name));
+  }
+  return names;
+}
+
+void warn_if_uncertain(const Observer& observer, const SourceSurface& a, const SourceSurface& b,
+                       const Correspondences& all, const std::vector<int>& partner) {
+  const auto matched = std::count_if(partner.begin(), partner.end(), [](int p) { return p >= 0; });
+  const auto tips_a = static_cast<std::ptrdiff_t>(all.a.sketch.tips.size());
+  const auto tips_b = static_cast<std::ptrdiff_t>(all.b.sketch.tips.size());
+  if (matched >= kFewest && 2 * matched >= std::min(tips_a, tips_b)) return;
+  warn(observer, b, "landmarks.uncertain",
+       fmt::format("{} tips of \"{}\" and {} of \"{}\" stand out, but only {} correspond; most "
+                   "landmarks are guesses",
+                   tips_a, a.name, tips_b, b.name, matched),
+       "look at the sheet, and move the landmarks that are wrong");
+}
+
+}  // namespace
+
+SuggestedLandmarks suggest_landmarks(const SourceSurface& a, const SourceSurface& b,
+                                     const SuggestOptions& options, const Observer& observer) {
+  advance(observer, {"landmarks", 0, 4});
+  const ShapeSketch sketch_a = sketch_shape(a.mesh);
+  advance(observer, {"landmarks", 1, 4});
+  const ShapeSketch sketch_b = sketch_shape(b.mesh);
+  advance(observer, {"landmarks", 2, 4});
+  warn_of_pieces(observer, a, sketch_a);
+  warn_of_pieces(observer, b, sketch_b);
+  Alignment kept = align_shapes(sketch_a, sketch_b, Handedness::Kept);
+  Correspondences all{Side(sketch_a), Side(sketch_b), {}, 0};
+  all.a.frame = kept.a;
+  all.b.frame = kept.b;
+  warn_of_mirror(observer, a, b, all, kept);
+  respect_symmetry(all.a.symmetry, all.b.symmetry, kept.partner);
+  match_rest(sketch_a, sketch_b, kept);
+  respect_symmetry(all.a.symmetry, all.b.symmetry, kept.partner);
+  warn_if_uncertain(observer, a, b, all, kept.partner);
+  advance(observer, {"landmarks", 3, 4});
+
+  constexpr int kRimPoints = 4;
+  const bool has_rim = !sketch_a.boundary.empty() && !sketch_b.boundary.empty();
+  add_rim(all, std::min(kRimPoints, options.count));
+  add_tips(all, kept.partner, has_rim ? std::max(options.count, kRimPoints) : options.count);
+  add_far_points(all, options.count);
+  if (static_cast<int>(all.pairs.size()) < kFewest) {
+    throw BakeError(Problem{Severity::Error,
+                            "landmarks.nothing-found",
+                            {b.file, ""},
+                            fmt::format("no three points of \"{}\" and \"{}\" can be told to "
+                                        "correspond",
+                                        a.name, b.name),
+                            "write the landmarks by hand: docs/landmarks.md"});
+  }
+  std::vector<int> vertices_a, vertices_b;
+  std::vector<PairKind> kinds;
+  for (const VertexPair& pair : all.pairs) {
+    vertices_a.push_back(pair.a);
+    vertices_b.push_back(pair.b);
+    kinds.push_back(pair.kind);
+  }
+  SuggestedLandmarks suggested{names_of_pairs(all),
+                               places_on_surface(a.mesh, all.a, vertices_a, kinds),
+                               places_on_surface(b.mesh, all.b, vertices_b, kinds)};
+  advance(observer, {"landmarks", 4, 4});
+  return suggested;
+}
+
+}  // namespace morphbake

@@ -1,0 +1,21 @@
+#pragma once
+
+#include <vector>
+
+#include "morphbake/mesh/mesh.h"
+
+namespace morphbake {
+
+/// Where a point of a mesh lies in space.
+Eigen::Vector3d position_of(const Mesh& mesh, const SurfacePoint& at);
+
+/// The point of the surface that is closest to `position`.
+///
+/// @param mesh  with a triangle
+/// @cost        O(#F log #F) for the search tree
+SurfacePoint closest_point(const Mesh& mesh, const Eigen::Vector3d& position);
+
+/// The closest point of the surface to each row of `positions`: one search tree for all.
+std::vector<SurfacePoint> closest_points(const Mesh& mesh, const Positions& positions);
+
+}  // namespace morphbake
