@@ -17,18 +17,6 @@ struct Arguments {
   bool force = false;
 };
 
-/// The recipe schema that came with this program, installed or as built in the source tree; empty
-/// when there is none.
-std::filesystem::path schema_beside_program() {
-  std::error_code error;
-  const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", error);
-  for (const char* folder : {"../share/morphbake/schemas", "../../schemas"}) {
-    const std::filesystem::path file = program.parent_path() / folder / "recipe.schema.json";
-    if (std::filesystem::is_regular_file(file, error)) return file;
-  }
-  return {};
-}
-
 [[noreturn]] void refuse(const std::filesystem::path& file, const char* message, const char* hint) {
   throw BakeError(
       Problem{Severity::Error, "usage.would-overwrite", {file.string(), "", 0, 0}, message, hint});
@@ -46,7 +34,8 @@ void run_init(const Arguments& arguments, Terminal& terminal) {
   }
   PendingOutputs outputs;
   const std::filesystem::path staged = outputs.stage(
-      arguments.recipe, first_recipe(arguments.sources, arguments.recipe, schema_beside_program()));
+      arguments.recipe,
+      first_recipe(arguments.sources, arguments.recipe, shipped_schema_file("recipe.schema.json")));
   // What it writes shall bake: the sources must be glTF and share their triangles.
   validate(read_recipe(staged), {}, terminal.observer());
   outputs.commit();

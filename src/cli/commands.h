@@ -3,6 +3,7 @@
 #include <CLI/App.hpp>
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
+#include <filesystem>
 #include <functional>
 #include <string>
 #include <vector>
@@ -23,10 +24,15 @@ Command add_validate(CLI::App& program);
 Command add_remesh(CLI::App& program);
 Command add_inspect(CLI::App& program);
 Command add_preview(CLI::App& program);
+Command add_landmarks(CLI::App& program);
 Command add_config(CLI::App& program);
 
 /// The option `--set /POINTER=VALUE`, which may be repeated.
 void add_settings(CLI::App& parser, std::vector<std::string>& settings);
+
+/// The schema of that name that came with this program, installed or as built in the source tree;
+/// empty when there is none.
+std::filesystem::path shipped_schema_file(const char* name);
 
 /// The error of a command line that cannot be meant: "usage.bad-argument".
 BakeError usage_error(const std::string& message, const std::string& hint);

@@ -26,6 +26,7 @@ Examples:
   morphbake remesh recipe.json -o same       the sources on one new connectivity
   morphbake inspect out/morph.glb            targets, sizes, bounds
   morphbake preview out/morph.glb            turntable of any morph glTF
+  morphbake landmarks suggest a.glb b.glb    points that correspond, with pictures
   morphbake config                           every option with its default
 
 Results go to stdout, everything else to stderr. NO_COLOR is respected.
@@ -69,7 +70,8 @@ std::string shown_error(const CLI::App& program, const CLI::ParseError& error,
   if (!program.get_subcommands().empty()) return error.what();
   if (command_word.empty()) return "no command given";
   return "'" + std::string(command_word) +
-         "' is no command; there are init, bake, validate, remesh, inspect, preview, config";
+         "' is no command; there are init, bake, validate, remesh, inspect, preview, landmarks, "
+         "config";
 }
 
 void add_global_flags(CLI::App& program, GlobalFlags& flags) {
@@ -91,8 +93,8 @@ void run_program(int argc, char** argv, Terminal& terminal) {
   GlobalFlags flags;
   add_global_flags(program, flags);
   const std::vector<Command> commands = {
-      add_init(program),    add_bake(program),    add_validate(program), add_remesh(program),
-      add_inspect(program), add_preview(program), add_config(program)};
+      add_init(program),    add_bake(program),    add_validate(program),  add_remesh(program),
+      add_inspect(program), add_preview(program), add_landmarks(program), add_config(program)};
   try {
     program.parse(argc, argv);
   } catch (const CLI::CallForVersion&) {

@@ -1,24 +1,31 @@
 #include "morphbake/bake/connectivity_sheet.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numeric>
+#include <string>
+#include <string_view>
 #include <utility>
 
 #include "morphbake/connectivity/map_distortion.h"
+#include "morphbake/images/drawing.h"
 #include "morphbake/images/srgb.h"
 #include "morphbake/mesh/measures.h"
 #include "morphbake/mesh/normals.h"
+#include "morphbake/preview/still_view.h"
 #include "morphbake/preview/turntable.h"
 
 namespace morphbake {
 namespace {
 
-constexpr int kCell = 400;          // pixels of a picture
-constexpr int kColumns = 4;         // source, new surface, checker, heat
-constexpr int kCheckerCells = 16;   // along the longer side
-constexpr int kCheckerPixels = 64;  // of a cell
+constexpr int kCell = 480;           // pixels of a picture
+constexpr int kColumns = 4;          // source, new surface, checker, heat
+constexpr int kCheckerCells = 16;    // along the longer side
+constexpr int kCheckerPixels = 64;   // of a cell
+constexpr double kShortestEdge = 4;  // pixels: shorter ones would only darken the picture
+constexpr Ink kText = {{70, 66, 62}, 1};
 
 /// Linear RGB of a hue (0 to 1) at a brightness.
 std::array<float, 3> hue_colour(double hue, double brightness) {
@@ -121,13 +128,81 @@ std::vector<Eigen::VectorXd> distortions(const SharedTriangulation& triangulatio
   return all;
 }
 
-Image picture_of(const AnimatedMesh& mesh, const BakeOptions& options, const Observer& observer) {
+TurntableOptions look_of(const BakeOptions& options) {
   TurntableOptions look = options.turntable;
   look.threads = options.threads;
   look.width = look.height = kCell;
   look.frames = 1;
   look.orbit = 0;
-  return std::move(render_turntable(mesh, look, observer).front());
+  return look;
+}
+
+Image picture_of(const AnimatedMesh& mesh, const BakeOptions& options) {
+  return render_still(mesh, look_of(options), Positions(0, 3)).picture;
+}
+
+/// Every edge of K that is seen, unless they are too dense to be told apart.
+void draw_edges(const Triangles& triangles, const std::vector<SeenPoint>& points, Image& picture) {
+  double length = 0;
+  std::vector<std::pair<int, int>> seen;
+  for (Eigen::Index f = 0; f < triangles.rows(); ++f) {
+    for (int k = 0; k < 3; ++k) {
+      const int a = triangles(f, k), b = triangles(f, (k + 1) % 3);
+      const SeenPoint& from = points[static_cast<std::size_t>(a)];
+      const SeenPoint& to = points[static_cast<std::size_t>(b)];
+      if (a > b || from.is_hidden || to.is_hidden) continue;
+      length += (to.pixel - from.pixel).norm();
+      seen.emplace_back(a, b);
+    }
+  }
+  if (seen.empty() || length / static_cast<double>(seen.size()) < kShortestEdge) return;
+  for (const auto& [a, b] : seen) {
+    draw_line(picture, points[static_cast<std::size_t>(a)].pixel,
+              points[static_cast<std::size_t>(b)].pixel, 1, {{40, 30, 25}, 0.35F});
+  }
+}
+
+/// The new triangles of one source, flat, with their edges and landmarks.
+Image surface_picture(const SharedTriangulation& triangulation, std::size_t s,
+                      const BakeOptions& options) {
+  const Triangles& triangles = triangulation.connectivity.triangles;
+  const Positions& positions = triangulation.geometries[s];
+  AnimatedPrimitive flat;  // without normals every triangle is seen
+  flat.triangles = triangles;
+  flat.positions = positions.cast<float>();
+  StillView view = render_still(still_mesh(std::move(flat)), look_of(options), positions);
+  draw_edges(triangles, view.points, view.picture);
+  for (const int landmark : triangulation.landmarks) {
+    const SeenPoint& at = view.points[static_cast<std::size_t>(landmark)];
+    if (at.is_hidden) continue;
+    draw_ring(view.picture, at.pixel, 0, 4.5F, {{255, 255, 255}, 1});
+    draw_ring(view.picture, at.pixel, 0, 3, {{200, 30, 40}, 1});
+  }
+  return std::move(view.picture);
+}
+
+/// What the colours of the last column mean, drawn into the corner of a picture.
+void draw_legend(Image& picture) {
+  constexpr int kWidth = 240, kHeight = 12, kLeft = 20;
+  const int top = picture.height - 44;
+  for (int x = 0; x < kWidth; ++x) {
+    const double share = (x + 0.5) / kWidth;
+    const Eigen::RowVector3f colour = heat_colour(std::pow(kHighDistortion, share));
+    const std::array<std::uint8_t, 3> shown = {linear_to_srgb(colour(0)), linear_to_srgb(colour(1)),
+                                               linear_to_srgb(colour(2))};
+    paste(blank_image(1, kHeight, shown), kLeft + x, top, picture);
+  }
+  for (const char* number : {"1", "1.5", "2", "3", "5+"}) {
+    const double value = number[1] == '.' ? 1.5 : number[0] - '0';
+    const double share = std::log(value) / std::log(kHighDistortion);
+    const int at = kLeft + static_cast<int>(std::lround(share * kWidth));
+    const int left = at - text_size(number, 2).x() / 2;
+    draw_text(picture, number, left, top + kHeight + 5, 2, kText);
+  }
+}
+
+void draw_title(std::string_view title, Image& picture) {
+  draw_text(picture, title, 12, 12, 2, kText);
 }
 
 }  // namespace
@@ -141,21 +216,23 @@ Image connectivity_sheet(const std::vector<SourceMesh>& sources, const RemeshedS
   const std::vector<Eigen::VectorXd> heat = distortions(triangulation);
   std::vector<Image> pictures;
   for (std::size_t s = 0; s < sources.size(); ++s) {
-    AnimatedMesh original = read_animated_mesh(sources[s].file);
-    pictures.push_back(picture_of(original, options, observer));
-    AnimatedPrimitive flat;  // without normals every triangle is seen
-    flat.triangles = k.triangles;
-    flat.positions = triangulation.geometries[s].cast<float>();
-    pictures.push_back(picture_of(still_mesh(flat), options, observer));
+    advance(observer, {"sheet", static_cast<int>(s), static_cast<int>(sources.size())});
+    pictures.push_back(picture_of(read_animated_mesh(sources[s].file), options));
+    draw_title(sources[s].name, pictures.back());
+    pictures.push_back(surface_picture(triangulation, s, options));
+    draw_title(fmt::format("{} vertices", k.vertex_count), pictures.back());
     AnimatedPrimitive checked = smooth_surface(triangulation.geometries[s], k.triangles);
     checked.texture_coordinates = coordinates;
     checked.image = 0;
-    AnimatedMesh with_checker = still_mesh(checked);
+    AnimatedMesh with_checker = still_mesh(std::move(checked));
     with_checker.images = {checker_png};
-    pictures.push_back(picture_of(with_checker, options, observer));
+    pictures.push_back(picture_of(with_checker, options));
+    draw_title("equal cells: equal places", pictures.back());
     AnimatedPrimitive heated = smooth_surface(triangulation.geometries[s], k.triangles);
     heated.colours = heat_colours(heat[s], k);
-    pictures.push_back(picture_of(still_mesh(heated), options, observer));
+    pictures.push_back(picture_of(still_mesh(std::move(heated)), options));
+    draw_title(s == 0 ? "distortion, largest" : "distortion from the first", pictures.back());
+    draw_legend(pictures.back());
   }
   return contact_sheet(pictures, kColumns, kCell);
 }

@@ -9,7 +9,7 @@
 namespace morphbake {
 
 /// One picture to judge a new connectivity by: a row a source, with the source itself, its new
-/// surface, the same checker on all, and the distortion of its triangles.
+/// triangles with landmarks, the same checker on all, and their distortion.
 ///
 /// The checker is laid on the first source and carried to the others by vertex: equal cells are
 /// equal places. Heat is the mean distortion around a vertex between the first source and this one

@@ -3,6 +3,7 @@
 #include <cassert>
 #include <cmath>
 
+#include "morphbake/images/drawing.h"
 #include "morphbake/images/images.h"
 #include "morphbake/images/srgb.h"
 
@@ -27,22 +28,6 @@ std::array<std::uint8_t, 3> border_colour(const Image& image) {
   return colour;
 }
 
-Image filled(int width, int height, const std::array<std::uint8_t, 3>& colour) {
-  Image image{width, height, {}};
-  image.rgb.resize(static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * 3);
-  for (std::size_t i = 0; i < image.rgb.size(); ++i) image.rgb[i] = colour[i % 3];
-  return image;
-}
-
-void paste(const Image& cell, int left, int top, Image& sheet) {
-  const std::size_t row_bytes = static_cast<std::size_t>(cell.width) * 3;
-  for (int row = 0; row < cell.height; ++row) {
-    const auto from = cell.rgb.begin() + static_cast<std::ptrdiff_t>(row_bytes) * row;
-    const auto to = (static_cast<std::ptrdiff_t>(top + row) * sheet.width + left) * 3;
-    std::copy_n(from, row_bytes, sheet.rgb.begin() + to);
-  }
-}
-
 }  // namespace
 
 Image contact_sheet(const std::vector<Image>& frames, int columns, int cell_width) {
@@ -56,7 +41,7 @@ Image contact_sheet(const std::vector<Image>& frames, int columns, int cell_widt
   const int across = std::min(columns, count);
   const int down = (count + across - 1) / across;
   Image sheet =
-      filled(across * (width + gap) + gap, down * (height + gap) + gap, border_colour(first));
+      blank_image(across * (width + gap) + gap, down * (height + gap) + gap, border_colour(first));
   for (int i = 0; i < count; ++i) {
     const Image cell = scale_down(frames[static_cast<std::size_t>(i)], width, height);
     paste(cell, gap + (i % across) * (width + gap), gap + (i / across) * (height + gap), sheet);

@@ -66,8 +66,8 @@ std::optional<int> transferred(const Side& from, const Side& to, int vertex) {
   Eigen::VectorXd cost(to.sketch.mesh.positions.rows());
   for (int v = 0; v < cost.size(); ++v) {
     const Eigen::Vector3d other = to.frame.axes.transpose() * to.normals.row(v).transpose();
-    cost(v) = kPlaceWeight * (to.frame.in_box(to.position(v)) - place).squaredNorm() +
-              kFacingWeight * (1 - facing.dot(other));
+    const double apart = (to.frame.in_box(to.position(v)) - place).squaredNorm();
+    cost(v) = kPlaceWeight * apart / (1 + apart) + kFacingWeight * (1 - facing.dot(other));
   }
   double weights = 0;
   Eigen::VectorXd differences = Eigen::VectorXd::Zero(cost.size());
