@@ -21,6 +21,7 @@ constexpr double kPairWeight = 1.0;
 constexpr double kPairLimit = 0.3;  // a tail that is far too long shall not spoil all others
 constexpr double kAlone = 0.25;     // a tip without partner; two such cost more than a bad pair
 constexpr double kAloneAtLast = 0.4;
+constexpr std::size_t kFewestToCompare = 2;
 constexpr int kRounds = 6;
 constexpr double kTurnPrior = 0.1;      // of half a turn
 constexpr double kUprightPrior = 0.25;  // of standing on the head
@@ -202,6 +203,8 @@ void match_rest(const ShapeSketch& a, const ShapeSketch& b, Alignment& alignment
   for (int j = 0; j < static_cast<int>(b.tips.size()); ++j) {
     if (std::find(partner.begin(), partner.end(), j) == partner.end()) columns.push_back(j);
   }
+  // Too little to compare with: any two tips would do.
+  if (partner.size() < rows.size() + kFewestToCompare) return;
   const Eigen::MatrixXd cost =
       with_pairs(a, b, single_costs(a, b, alignment.a, alignment.b), partner);
   const std::vector<int> found = assign(cost(rows, columns), kAloneAtLast);

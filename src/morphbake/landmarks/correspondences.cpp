@@ -15,6 +15,7 @@ constexpr double kFacingWeight = 0.03;
 constexpr double kDistanceLimit = 0.3;  // of the squares of differences, as in alignments
 constexpr double kNear = 0.2;           // in `reach`: how near a landmark must be to count most
 constexpr double kApart = 0.2;          // in `reach`: least distance between landmarks
+constexpr double kOfTip = 0.25;         // in `reach`: what belongs to a tip
 constexpr double kOffPlane = 0.06;      // of the diagonal: nearer to the mirror plane is on it
 
 Normals vertex_normals(const Mesh& mesh) {
@@ -60,7 +61,7 @@ void add_pair(Correspondences& all, int a, int b, PairKind kind, bool mirrors_la
   all.b.from_landmark.push_back(all.b.distances.from(b) / all.b.sketch.reach);
 }
 
-std::optional<int> transferred(const Side& from, const Side& to, int vertex) {
+std::optional<int> transferred(const Side& from, const Side& to, int vertex, PairKind kind) {
   const Eigen::Vector3d place = from.frame.in_box(from.position(vertex));
   const Eigen::Vector3d facing = from.frame.axes.transpose() * from.normals.row(vertex).transpose();
   Eigen::VectorXd cost(to.sketch.mesh.positions.rows());
@@ -79,6 +80,12 @@ std::optional<int> transferred(const Side& from, const Side& to, int vertex) {
     weights += weight;
   }
   if (weights > 0) cost += differences / weights;
+  if (kind == PairKind::Tip) {
+    // What grows nowhere on the other shape is none of its tips.
+    for (const Eigen::VectorXd& distance : to.sketch.from_tip) {
+      cost = (distance.array() < kOfTip).select(cost.array() + 1, cost.array());
+    }
+  }
   int best = 0;
   cost.minCoeff(&best);
   if (to.to_landmark(best) < kApart) return std::nullopt;
@@ -93,7 +100,7 @@ int add_transferred(Correspondences& all, const Transfer& transfer, int most) {
   if (most < needed) return 0;
   const auto add = [&](int here, bool mirrors_last) {
     if (from.to_landmark(here) < kApart) return false;
-    std::optional<int> there = transferred(from, to, here);
+    std::optional<int> there = transferred(from, to, here, transfer.kind);
     // The other shape's own symmetry is more exact than two searches.
     if (mirrors_last && to.symmetry.is_exact) {
       there = to.across(on_a ? all.pairs.back().b : all.pairs.back().a);

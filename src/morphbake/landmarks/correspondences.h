@@ -57,9 +57,9 @@ void add_pair(Correspondences& all, int a, int b, PairKind kind, bool mirrors_la
 /// Where a vertex of one shape lies on the other: alike in its distances to the landmarks, above
 /// all the near ones, in its place in the box, and in the direction that it faces.
 ///
-/// @param from, to  the two sides
-/// @return          nothing when a landmark is there already
-std::optional<int> transferred(const Side& from, const Side& to, int vertex);
+/// @param kind  a tip that only `from` has goes to no tip of `to`
+/// @return      nothing when a landmark is there already
+std::optional<int> transferred(const Side& from, const Side& to, int vertex, PairKind kind);
 
 /// A vertex of one shape that shall get a counterpart on the other.
 struct Transfer {

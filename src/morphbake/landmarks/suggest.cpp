@@ -168,10 +168,14 @@ void add_rim(Correspondences& all, int count) {
     const Eigen::Vector3d direction = Eigen::Vector3d::Unit(widths[i].second);
     const Eigen::Vector3d sideways = all.a.frame.axes.transpose() * all.a.symmetry.sideways;
     const bool is_pair = all.a.symmetry.found && std::abs(sideways.dot(direction)) > 0.7;
+    bool has_first = false;
     for (const double sign : {1.0, -1.0}) {
-      if (room(all, count) < 1) return;
-      add_pair(all, furthest_on_rim(all.a, sign * direction),
-               furthest_on_rim(all.b, sign * direction), PairKind::Rim, is_pair && sign < 0);
+      const int a = furthest_on_rim(all.a, sign * direction);
+      const int b = furthest_on_rim(all.b, sign * direction);
+      const bool is_new = all.a.to_landmark(a) > kOnRim && all.b.to_landmark(b) > kOnRim;
+      if (!is_new || room(all, count) < 1) continue;
+      add_pair(all, a, b, PairKind::Rim, is_pair && has_first);
+      has_first = true;
     }
   }
 }
@@ -211,27 +215,36 @@ const Side& reference_side(const Correspondences& all, bool& is_a) {
   return is_a ? all.a : all.b;
 }
 
-std::vector<std::string> names_of_pairs(const Correspondences& all) {
-  std::map<int, int> members;  // unit -> pairs
-  for (const VertexPair& pair : all.pairs) ++members[pair.unit];
+/// Puts the left one of each mirrored pair first.
+void sort_sides(Correspondences& all) {
   bool is_a = true;
   const Side& side = reference_side(all, is_a);
+  const auto sideways = [&](const VertexPair& pair) {
+    return side.symmetry.side_of(side.position(is_a ? pair.a : pair.b));
+  };
+  for (std::size_t i = 0; i + 1 < all.pairs.size(); ++i) {
+    if (all.pairs[i].unit != all.pairs[i + 1].unit) continue;
+    if (sideways(all.pairs[i]) >= sideways(all.pairs[i + 1])) continue;
+    std::swap(all.pairs[i], all.pairs[i + 1]);
+    std::swap(all.a.from_landmark[i], all.a.from_landmark[i + 1]);
+    std::swap(all.b.from_landmark[i], all.b.from_landmark[i + 1]);
+  }
+}
+
+/// "tip_1", "tip_2_left", "tip_2_right"; of pairs, the left one stands first.
+std::vector<std::string> names_of_pairs(const std::vector<VertexPair>& pairs) {
   std::map<PairKind, int> numbers;
-  std::map<int, int> number_of_unit;
   std::vector<std::string> names;
-  for (const VertexPair& pair : all.pairs) {
-    if (!number_of_unit.contains(pair.unit)) number_of_unit[pair.unit] = ++numbers[pair.kind];
-    const char* kind = pair.kind == PairKind::Tip   ? "tip"
-                       : pair.kind == PairKind::Rim ? "rim"
-                                                    : "point";
-    std::string name = fmt::format("{}_{}", kind, number_of_unit[pair.unit]);
-    if (members[pair.unit] == 2) {
-      const double x = side.symmetry.side_of(side.position(is_a ? pair.a : pair.b));
-      name += x > 0 ? "_left" : "_right";
-    }
-    // Two on one side: a pair that is none.
-    if (std::find(names.begin(), names.end(), name) != names.end()) name += "_too";
-    names.push_back(std::move(name));
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    const bool is_right = i > 0 && pairs[i - 1].unit == pairs[i].unit;
+    const bool is_left = i + 1 < pairs.size() && pairs[i + 1].unit == pairs[i].unit;
+    const PairKind kind = pairs[i].kind;
+    const char* word = kind == PairKind::Tip ? "tip" : kind == PairKind::Rim ? "rim" : "point";
+    if (!is_right) ++numbers[kind];
+    names.push_back(fmt::format("{}_{}{}", word, numbers[kind],
+                                is_left    ? "_left"
+                                : is_right ? "_right"
+                                           : ""));
   }
   return names;
 }
@@ -285,6 +298,7 @@ SuggestedLandmarks suggest_landmarks(const SourceSurface& a, const SourceSurface
                                         a.name, b.name),
                             "write the landmarks by hand: docs/landmarks.md"});
   }
+  sort_sides(all);
   std::vector<int> vertices_a, vertices_b;
   std::vector<PairKind> kinds;
   for (const VertexPair& pair : all.pairs) {
@@ -292,7 +306,7 @@ SuggestedLandmarks suggest_landmarks(const SourceSurface& a, const SourceSurface
     vertices_b.push_back(pair.b);
     kinds.push_back(pair.kind);
   }
-  SuggestedLandmarks suggested{names_of_pairs(all),
+  SuggestedLandmarks suggested{names_of_pairs(all.pairs),
                                places_on_surface(a.mesh, all.a, vertices_a, kinds),
                                places_on_surface(b.mesh, all.b, vertices_b, kinds)};
   advance(observer, {"landmarks", 4, 4});

@@ -159,6 +159,13 @@ void draw_marks(StillView& view) {
   }
 }
 
+/// A title that fits above its picture.
+std::string shortened(const std::string& title, int width) {
+  std::string text = title;
+  while (!text.empty() && text_size(text, kTextScale).x() > width) text.pop_back();
+  return text.size() == title.size() ? text : text + "...";
+}
+
 /// Pixels that the legend needs on the right.
 int legend_width(const std::vector<std::string>& names) {
   int width = 0;
@@ -195,6 +202,7 @@ Image render_landmark_sheet(const std::vector<MarkedShape>& shapes,
   TurntableOptions look;
   look.width = look.height = size;
   look.frames = 1;
+  look.fill = 0.85;
   look.samples = options.samples;
   look.threads = options.threads;
   for (int row = 0; row < rows; ++row) {
@@ -210,7 +218,8 @@ Image render_landmark_sheet(const std::vector<MarkedShape>& shapes,
       const int left = kGap + column * (size + kGap);
       paste(view.picture, left, top + kCaption, sheet);
       const std::string caption =
-          column == 0 ? fmt::format("{}: {}", shape.title, from.name) : from.name;
+          column == 0 ? fmt::format("{}: {}", shortened(shape.title, size - 140), from.name)
+                      : from.name;
       draw_text(sheet, caption, left + 2, top + 2, kTextScale, {kText, 1});
     }
   }

@@ -19,7 +19,7 @@ namespace morphbake {
 namespace {
 
 /// A point may lie this far behind the first surface and still be on it; the shape's radius is 1.
-constexpr float kOnSurface = 0.012f;
+constexpr float kOnSurface = 0.03f;
 
 SeenPoint seen(const Camera& camera, const RayScene& rays, const TurntableOptions& options,
                const Eigen::Vector3f& point) {

@@ -1,0 +1,53 @@
+# Proposing and showing landmarks. bash landmarks.sh PROGRAM SCRATCH SHAPES
+. "$(dirname "$0")/testing.sh"
+shapes=$3
+
+# What is wrong is told, and nothing is written.
+run 2 landmarks
+run 2 landmarks suggest "$shapes/cow.glb"
+run 2 landmarks suggest "$shapes/cow.glb" missing.glb -o out
+stderr_has "[files.missing]"
+run 2 landmarks suggest missing.glb gone.glb -o out
+stderr_has "missing.glb"
+stderr_has "gone.glb"
+run 2 landmarks suggest "$shapes/cow.glb" "$shapes/cow.glb" -o out
+stderr_has "[usage.bad-argument]"
+run 2 landmarks suggest "$shapes/cow.glb" "$shapes/pig.glb" --count 2 -o out
+run 2 landmarks show "$shapes/cow.glb" --landmarks missing.json -o show.png
+stderr_has "[files.missing]"
+run 2 landmarks show "$shapes/face.glb" --landmarks "$shapes/cow.landmarks.json" -o show.png
+stderr_has "cow.landmarks.json#/landmarks/nose: error:"
+stderr_has "is this the landmark file of another mesh, or of another scale?"
+stderr_has "[landmarks.off-surface]"
+echo '{"version": 1, "landmarks": {"a": {"vertex": 999999}, "b": {"face": 0}}}' >broken.json
+run 2 landmarks show "$shapes/face.glb" --landmarks broken.json -o show.png
+stderr_has "[landmarks.missing-field]"
+rm broken.json
+run 2 landmarks suggest "$shapes/cow.glb" "$shapes/pig.glb"  # beside them are files already
+stderr_has "[usage.would-overwrite]"
+no_file_in .
+ln -s /proc forbidden
+run 6 landmarks suggest "$shapes/cow.glb" "$shapes/pig.glb" -o forbidden/out
+rm forbidden
+no_file_in .
+
+run 0 landmarks suggest "$shapes/cow.glb" "$shapes/pig.glb" -o out
+for file in out/cow.landmarks.json out/pig.landmarks.json out/cow-pig.landmarks.png; do
+  stdout_has "$file"
+  [ -s "$file" ] || wrong "there is no $file"
+done
+[ "$(find out -type f | wc -l)" = 3 ] || wrong "wrote $(find out -type f)"
+[ "$(jq -c '.landmarks | keys' out/cow.landmarks.json)" = "$(jq -c '.landmarks | keys' out/pig.landmarks.json)" ] ||
+  wrong "the names differ"
+jq -e '.version == 1 and (.landmarks | length == 10 and has("tip_2_left") and has("tip_2_right"))' \
+  out/cow.landmarks.json >/dev/null || wrong "odd landmarks: $(cat out/cow.landmarks.json)"
+[ -f "out/$(jq -r '."$schema"' out/cow.landmarks.json)" ] || wrong "names no schema"
+run 2 landmarks suggest "$shapes/cow.glb" "$shapes/pig.glb" -o out
+run 0 landmarks suggest "$shapes/cow.glb" "$shapes/pig.glb" -o out --force --threads 1
+run 0 landmarks suggest "$shapes/cow.glb" "$shapes/pig.glb" -o again
+diff -r out again || wrong "two runs differ"
+
+run 0 landmarks show "$shapes/cow.glb" --landmarks out/cow.landmarks.json -o show.png
+stdout_has "show.png"
+[ -s show.png ] || wrong "show wrote no picture"
+finish
