@@ -326,7 +326,7 @@ Pass insert_boundary_points(LayeredTriangulation& t, double tolerance, int verte
       };
       const Vector3d place = layer.atlas.sphere[index(worst[i].vertex)];
       const double fraction = away(place) / away(layer.sphere[index(edges[i].b)]);
-      if (!(fraction > 1e-3 && fraction < 1 - 1e-3)) continue;
+      if (!(fraction > kNearEdge && fraction < 1 - kNearEdge)) continue;
       Places places = places_on_edge(t, h, fraction);
       places[s] = place;
       const int v = split_edge_at(t, h, places);

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <random>
 
 #include "morphbake/connectivity/point_distance.h"
@@ -27,12 +28,25 @@ Corners corners_of(const LayeredTriangulation& t, int f) {
   return {t.mesh.from(3 * f), t.mesh.from(3 * f + 1), t.mesh.from(3 * f + 2)};
 }
 
+double longitude(const Vector3d& x) { return std::atan2(x.y(), x.x()); }
+
+/// The border vertices of a source by their longitude.
+std::vector<std::pair<double, int>> border_points(const SphereAtlas& atlas) {
+  std::vector<std::pair<double, int>> border;
+  for (int v = 0; v < static_cast<int>(atlas.sphere.size()); ++v) {
+    if (atlas.map->on_boundary[index(v)]) border.emplace_back(longitude(atlas.sphere[index(v)]), v);
+  }
+  std::sort(border.begin(), border.end());
+  return border;
+}
+
 /// Repairs one triangulation; keeps which source vertices lie under which triangle.
 class Repair {
  public:
   Repair(LayeredTriangulation& t, SourcePoints& points, double tolerance)
       : t_(t), points_(points), tolerance_(tolerance), below_(t.layers.size()) {
     for (std::size_t s = 0; s < t.layers.size(); ++s) {
+      borders_.push_back(border_points(t.layers[s].atlas));
       below_[s].resize(index(t.mesh.triangle_slots()));
       for (const int v : points.order[s]) {
         if (t.layers[s].atlas.map->on_boundary[index(v)]) continue;
@@ -154,6 +168,51 @@ class Repair {
     return true;
   }
 
+  /// Largest distance of a source's border between two border vertices from a chain of them.
+  double border_distance(std::size_t s, const std::vector<int>& chain) const {
+    const Layer& layer = t_.layers[s];
+    const double begin = longitude(layer.sphere[index(chain.front())]);
+    const auto away = [&](double angle) {
+      const double turn = std::remainder(angle - begin, 2 * std::numbers::pi);
+      return turn < 0 ? turn + 2 * std::numbers::pi : turn;
+    };
+    const double end = away(longitude(layer.sphere[index(chain.back())]));
+    const auto& border = borders_[s];
+    auto from = std::lower_bound(border.begin(), border.end(), std::pair(begin, -1));
+    double largest = 0;
+    for (std::size_t i = 0; i < border.size(); ++i, ++from) {
+      if (from == border.end()) from = border.begin();
+      if (away(from->first) > end) break;
+      double nearest = std::numeric_limits<double>::infinity();
+      for (std::size_t k = 0; k + 1 < chain.size(); ++k) {
+        nearest =
+            std::min(nearest, point_segment_distance(layer.atlas.positions[index(from->second)],
+                                                     layer.lifted[index(chain[k])],
+                                                     layer.lifted[index(chain[k + 1])]));
+      }
+      largest = std::max(largest, nearest);
+    }
+    return largest / layer.atlas.diagonal;
+  }
+
+  /// Whether the borders stay near when border vertex u goes into its neighbour v.
+  bool border_stays_near(int u, int v) const {
+    int other = -1;
+    bool is_before = false;  // whether v comes before u, in the direction of growing longitude
+    t_.mesh.around(u, [&](int g) {
+      if (!t_.is_boundary_edge(g)) return;
+      // The inner triangles lie to the left of the border's direction.
+      if (t_.mesh.to(g) == v) is_before = t_.is_cap(ClosedMesh::triangle_of(g));
+      if (t_.mesh.to(g) != v) other = t_.mesh.to(g);
+    });
+    for (std::size_t s = 0; s < t_.layers.size(); ++s) {
+      const int first = is_before ? v : other, last = is_before ? other : v;
+      const double after = border_distance(s, {first, last});
+      if (after > tolerance_ && after > border_distance(s, {first, u, last})) return false;
+    }
+    return true;
+  }
+
   double cost_of(const Corners& corners) const {
     if (t_.apex >= 0 && std::find(corners.begin(), corners.end(), t_.apex) != corners.end())
       return 0;
@@ -217,7 +276,7 @@ class Repair {
 
   bool try_collapse(int h) {
     const int u = t_.mesh.from(h), v = t_.mesh.to(h);
-    if (t_.on_boundary[index(u)] || !can_collapse(t_, h)) return false;
+    if (!can_collapse(t_, h)) return false;
     std::vector<int> old, kept;
     std::vector<Corners> now;
     std::vector<std::array<int, 2>> edges;
@@ -230,13 +289,16 @@ class Repair {
       if (a == v || b == v) return;
       kept.push_back(f);
       now.push_back({v, a, b});
-      edges.push_back({v, a});
+      if (a != t_.apex && !(t_.on_boundary[index(u)] && t_.on_boundary[index(a)])) {
+        edges.push_back({v, a});
+      }
       const double cost = cost_of(now.back());
       after += cost * cost;
       worst_after = std::max(worst_after, cost);
     });
     if (!(after < before && worst_after < 0.9 * worst_before)) return false;
     if (!stays_near(old, now, edges)) return false;
+    if (t_.on_boundary[index(u)] && !border_stays_near(u, v)) return false;
     collapse(t_, h);
     update(old, kept);
     return true;
@@ -341,8 +403,9 @@ class Repair {
   LayeredTriangulation& t_;
   SourcePoints& points_;
   double tolerance_;
-  std::vector<std::vector<std::vector<int>>> below_;  ///< layer, triangle: source vertices
-  std::vector<double> costs_;                         ///< one a triangle slot
+  std::vector<std::vector<std::vector<int>>> below_;          ///< layer, triangle: source vertices
+  std::vector<std::vector<std::pair<double, int>>> borders_;  ///< one a layer
+  std::vector<double> costs_;                                 ///< one a triangle slot
   std::vector<int> failures_;  ///< one a triangle slot: tries in vain since something changed
   std::mt19937 random_{1};
 };
