@@ -28,11 +28,12 @@ std::vector<std::string> summary_lines(const RemeshReport& report) {
   lines.push_back(fmt::format("{}: {} vertices, {} triangles in {:.2f} s", report.recipe,
                               connectivity.vertices, connectivity.triangles, seconds));
   for (const SourceQuality& source : connectivity.quality->sources) {
-    lines.push_back(fmt::format(
-        "  {}: {:.2g} / {:.2g} of the diagonal from it / to it, {} folds, {} self-intersections "
-        "({} before), smallest angle {:.1f} degrees",
-        source.source, source.source_to_remesh, source.remesh_to_source, source.folds,
-        source.self_intersections, source.source_self_intersections, source.smallest_angle));
+    lines.push_back(
+        fmt::format("  {}: {:.2g} / {:.2g} of the diagonal from it / to it, {} folds, {} new "
+                    "self-intersections, "
+                    "smallest angle {:.1f} degrees",
+                    source.source, source.source_to_remesh, source.remesh_to_source, source.folds,
+                    source.new_self_intersections, source.smallest_angle));
   }
   for (const MapQuality& map : connectivity.quality->maps) {
     lines.push_back(fmt::format(

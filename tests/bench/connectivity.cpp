@@ -87,6 +87,7 @@ nlohmann::json to_json(const SharedTriangulation& shared, const TriangulationQua
                                {"folds", source.folds},
                                {"self_intersections", source.self_intersections},
                                {"source_self_intersections", source.source_self_intersections},
+                               {"new_self_intersections", source.new_self_intersections},
                                {"smallest_angle", source.smallest_angle},
                                {"landmark_error", source.landmark_error}});
   }

@@ -127,7 +127,7 @@ function rows(name, way, { vertices, sources, distortion, seconds }) {
     const stretch = map ? [map.mean, map.median, map.percentile_99, map.maximum].map(short).join(' / ') : '';
     const cells = s === 0 ? [name, way, vertices, seconds.toFixed(seconds < 1 ? 2 : 1)] : ['', '', '', ''];
     const distances = `${percent(source.source_to_remesh)} / ${percent(source.remesh_to_source)}`;
-    const cuts = `${source.self_intersections} (${source.source_self_intersections})`;
+    const cuts = `${source.new_self_intersections} (${source.source_self_intersections})`;
     return `| ${[...cells, source.source, distances, stretch, source.smallest_angle.toFixed(1), source.folds, cuts,
       percent(source.landmark_error)].join(' | ')} |`;
   });
@@ -135,7 +135,7 @@ function rows(name, way, { vertices, sources, distortion, seconds }) {
 
 function qualityTable(cases) {
   const lines = [
-    '| case | way | vertices | s | source | Hausdorff to / from, % | SD/4 mean / median / p99 / max | angle | folds | cuts (own) | landmark, % |',
+    '| case | way | vertices | s | source | Hausdorff to / from, % | SD/4 mean / median / p99 / max | angle | folds | new cuts (own) | landmark, % |',
     '|---|---|---:|---:|---|---:|---:|---:|---:|---:|---:|',
   ];
   for (const one of cases) {
@@ -175,7 +175,7 @@ writeFileSync(join(docs, 'connectivity-measured.md'), `${[
   'that fits the landmarks, each vertex then moved to the closest point. Its seconds are for that alone.', '',
   '## Quality', '', ...qualityTable(cases), '',
   'Hausdorff distances are those from a source to its new triangles and back, in per cent of its diagonal; SD/4 is the',
-  'symmetric Dirichlet energy of the map from the first source (1: an isometry); angles are in degrees; cuts are pairs of',
+  'symmetric Dirichlet energy of the map from the first source (1: an isometry); angles are in degrees; new cuts are pairs of',
   'triangles that cut one another, in brackets those of the source itself.', '',
   '## Time and memory', '', ...timeTable(cases, times), '',
   'The whole command also measures; that of the pairs and of `four` draws the sheet, too.', '',

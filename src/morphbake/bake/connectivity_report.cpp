@@ -34,12 +34,11 @@ void add_source_warnings(const Recipe& recipe, const SourceQuality& quality,
                             quality.source),
                 "look at the red places of the sheet; landmarks there, or a finer mesh, help"));
   }
-  if (const int more = quality.self_intersections - quality.source_self_intersections; more > 0) {
+  if (quality.new_self_intersections > 0) {
     warnings.push_back(warning(
         recipe, "connectivity.self-intersections",
-        fmt::format("{} pairs of new triangles of \"{}\" cut one another; {} of the source "
-                    "did already",
-                    quality.self_intersections, quality.source, quality.source_self_intersections),
+        fmt::format("{} pairs of new triangles of \"{}\" cut one another where the source's do not",
+                    quality.new_self_intersections, quality.source),
         "a smaller max_error keeps thin parts apart"));
   }
 }

@@ -81,6 +81,7 @@ Json to_json(const SourceQuality& quality) {
                {"folds", quality.folds},
                {"self_intersections", quality.self_intersections},
                {"source_self_intersections", quality.source_self_intersections},
+               {"new_self_intersections", quality.new_self_intersections},
                {"smallest_angle", quality.smallest_angle},
                {"landmark_error", quality.landmark_error}};
   if (quality.sphere) {

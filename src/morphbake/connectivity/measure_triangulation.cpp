@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "morphbake/connectivity/surface_checks.h"
+#include "morphbake/correspondence/check_map.h"
 #include "morphbake/mesh/closest_point.h"
 #include "morphbake/mesh/measures.h"
 
@@ -23,18 +24,37 @@ Eigen::RowVector3d face_normal(const Mesh& mesh, int f) {
   return (b - a).cross(c - a);
 }
 
-int count_folds(const Mesh& source, const Mesh& remesh) {
+/// The source's triangle nearest to the middle of each triangle.
+std::vector<int> triangles_below(const Mesh& source, const Mesh& remesh) {
   Positions centres = Positions::Zero(remesh.triangles.rows(), 3);
   for (int f = 0; f < remesh.triangles.rows(); ++f) {
     for (int k = 0; k < 3; ++k) centres.row(f) += remesh.positions.row(remesh.triangles(f, k)) / 3;
   }
-  const std::vector<SurfacePoint> below = closest_points(source, centres);
+  std::vector<int> below;
+  for (const SurfacePoint& point : closest_points(source, centres)) below.push_back(point.triangle);
+  return below;
+}
+
+int count_folds(const Mesh& source, const Mesh& remesh, const std::vector<int>& below) {
   int folds = 0;
   for (int f = 0; f < remesh.triangles.rows(); ++f) {
-    const int under = below[static_cast<std::size_t>(f)].triangle;
+    const int under = below[static_cast<std::size_t>(f)];
     folds += face_normal(remesh, f).dot(face_normal(source, under)) < 0;
   }
   return folds;
+}
+
+/// Pairs that do not both lie where the source's own triangles cut one another.
+int count_new(const std::vector<std::pair<int, int>>& pairs, const Mesh& source,
+              const std::vector<int>& below) {
+  if (pairs.empty()) return 0;
+  const std::vector<char> near_cuts = triangles_near_cuts(source);
+  const auto is_near = [&](int f) {
+    return near_cuts[static_cast<std::size_t>(below[static_cast<std::size_t>(f)])] != 0;
+  };
+  return static_cast<int>(std::count_if(pairs.begin(), pairs.end(), [&](const auto& pair) {
+    return !is_near(pair.first) || !is_near(pair.second);
+  }));
 }
 
 double smallest_angle(const Mesh& mesh) {
@@ -73,8 +93,8 @@ std::optional<SphereQuality> sphere_quality(const SharedTriangulation& triangula
   const bool is_disk =
       std::any_of(triangulation.on_boundary.begin(), triangulation.on_boundary.end(),
                   [](char on) { return on != 0; });
-  return SphereQuality{count_flipped(sphere, triangles),
-                       solid_angle(sphere, triangles) / (is_disk ? 2 * kPi : 4 * kPi)};
+  const SphereCheck check = check_sphere(sphere, triangles, is_disk);
+  return SphereQuality{check.turned, check.degree};
 }
 
 SourceQuality measure_source(const std::vector<SourceSurface>& surfaces,
@@ -87,9 +107,12 @@ SourceQuality measure_source(const std::vector<SourceSurface>& surfaces,
   quality.source = source.name;
   quality.source_to_remesh = hausdorff_distance(source.mesh, remesh, bound) / diagonal;
   quality.remesh_to_source = hausdorff_distance(remesh, source.mesh, bound) / diagonal;
-  quality.folds = count_folds(source.mesh, remesh);
-  quality.self_intersections = count_self_intersections(remesh);
-  quality.source_self_intersections = count_self_intersections(source.mesh);
+  const std::vector<int> below = triangles_below(source.mesh, remesh);
+  quality.folds = count_folds(source.mesh, remesh, below);
+  const std::vector<std::pair<int, int>> pairs = self_intersections(remesh);
+  quality.self_intersections = static_cast<int>(pairs.size());
+  quality.new_self_intersections = count_new(pairs, source.mesh, below);
+  quality.source_self_intersections = static_cast<int>(self_intersections(source.mesh).size());
   quality.smallest_angle = smallest_angle(remesh);
   quality.landmark_error =
       landmark_error(source, surfaces[0].landmark_names, remesh, triangulation.landmarks) /

@@ -25,6 +25,7 @@ struct SourceQuality {
   int folds = 0;                ///< triangles that face against the source's surface below them
   int self_intersections = 0;   ///< pairs of triangles
   int source_self_intersections = 0;  ///< of the source itself
+  int new_self_intersections = 0;     ///< pairs away from the source's own
   double smallest_angle = 0;          ///< degrees
   double landmark_error = 0;          ///< of the worst landmark, fraction of the diagonal
   std::optional<SphereQuality> sphere;

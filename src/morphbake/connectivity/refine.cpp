@@ -357,9 +357,12 @@ Pass split_deviating_edges(LayeredTriangulation& t, double tolerance, int vertex
   return split_rated(t, edges_above(t, tolerance, deviation), vertex_limit);
 }
 
-Pass flip_edges(LayeredTriangulation& t, double tolerance) {
+Pass flip_edges(LayeredTriangulation& t, double tolerance, const Patch& patch) {
   Pass pass;
-  const auto gain = [&](int h) { return can_flip(t, h) ? flip_gain(t, h, tolerance) : -1; };
+  const auto gain = [&](int h) {
+    const bool is_free = patch.has(t.mesh.from(h)) && patch.has(t.mesh.to(h)) && can_flip(t, h);
+    return is_free ? flip_gain(t, h, tolerance) : -1;
+  };
   for (const RatedEdge& edge : edges_above(t, 0, gain)) {
     const int h = t.mesh.find(edge.a, edge.b);
     if (h < 0 || !can_flip(t, h) || !(flip_gain(t, h, tolerance) > 0)) continue;

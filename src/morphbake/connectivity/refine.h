@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "morphbake/connectivity/layered_triangulation.h"
+#include "morphbake/connectivity/patch.h"
 
 namespace morphbake {
 
@@ -40,7 +41,7 @@ Pass split_long_edges(LayeredTriangulation& t, double length, int vertex_limit);
 Pass split_deviating_edges(LayeredTriangulation& t, double tolerance, int vertex_limit);
 
 /// Turns edges towards larger opposite angles and towards the sources' own creases.
-Pass flip_edges(LayeredTriangulation& t, double tolerance);
+Pass flip_edges(LayeredTriangulation& t, double tolerance, const Patch& patch = {});
 
 /// Distance of every source vertex from the triangulation's triangle over it.
 ///

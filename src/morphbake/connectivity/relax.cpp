@@ -69,11 +69,15 @@ class LayerRelaxation {
     const int slots = t_.mesh.vertex_slots();
     for (int i = 0; i < slots; ++i) {
       const int v = backwards ? slots - 1 - i : i;
-      if (t_.mesh.has_vertex(v) && !t_.is_fixed[index(v)] && !captures_feature(v)) move(v);
+      if (t_.mesh.has_vertex(v) && is_movable(v)) move(v);
     }
   }
 
  private:
+  bool is_movable(int v) const {
+    return !t_.is_fixed[index(v)] && options_.patch.has(v) && !captures_feature(v);
+  }
+
   bool captures_feature(int v) const {
     if (options_.feature_cosine <= -1) return false;
     Vector3d sum = Vector3d::Zero();

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "morphbake/connectivity/layered_triangulation.h"
+#include "morphbake/connectivity/patch.h"
 
 namespace morphbake {
 
@@ -16,6 +17,7 @@ struct RelaxOptions {
   /// Vertices where a triangle's normal turns from the vertex's by more than this cosine stay
   /// where they capture a feature; -1: none stays.
   double feature_cosine = -1;
+  Patch patch;  ///< what moves
 };
 
 /// Moves the vertices on each source so that triangles differ little from the mean of all sources

@@ -61,11 +61,11 @@ class Repair {
     });
   }
 
-  Repaired pass(double threshold) {
+  Repaired pass(double threshold, const Patch& patch) {
     Repaired repaired;
     std::vector<std::pair<double, int>> bad;
     for (int f = 0; f < static_cast<int>(costs_.size()); ++f) {
-      if (t_.mesh.has_triangle(f) && costs_[index(f)] > threshold) {
+      if (t_.mesh.has_triangle(f) && costs_[index(f)] > threshold && touches(patch, f)) {
         bad.emplace_back(-costs_[index(f)], f);
       }
     }
@@ -82,6 +82,11 @@ class Repair {
   }
 
  private:
+  bool touches(const Patch& patch, int f) const {
+    const Corners corners = corners_of(t_, f);
+    return std::any_of(corners.begin(), corners.end(), [&](int v) { return patch.has(v); });
+  }
+
   bool better(int f) {
     const Corners corners = corners_of(t_, f);
     for (int k = 0; k < 3; ++k) {
@@ -412,13 +417,14 @@ class Repair {
 
 }  // namespace
 
-Repaired repair(LayeredTriangulation& t, SourcePoints& points, double tolerance, double threshold) {
+Repaired repair(LayeredTriangulation& t, SourcePoints& points, double tolerance, double threshold,
+                const Patch& patch) {
   constexpr int kPasses = 12;
   source_errors(t, points);  // finds where the source vertices lie now
   Repair repair(t, points, tolerance);
   Repaired all;
   for (int pass = 0; pass < kPasses; ++pass) {
-    const Repaired one = repair.pass(threshold);
+    const Repaired one = repair.pass(threshold, patch);
     all.bad = one.bad;
     all.changes += one.changes;
     if (one.changes == 0) break;

@@ -5,8 +5,7 @@
 #include <CGAL/Polygon_mesh_processing/self_intersections.h>
 #include <CGAL/Surface_mesh.h>
 
-#include <Eigen/Geometry>
-#include <cmath>
+#include <algorithm>
 #include <iterator>
 #include <utility>
 #include <vector>
@@ -41,37 +40,34 @@ double hausdorff_distance(const Mesh& from, const Mesh& to, double error_bound) 
       to_cgal(from), to_cgal(to), error_bound);
 }
 
-int count_self_intersections(const Mesh& mesh) {
+std::vector<std::pair<int, int>> self_intersections(const Mesh& mesh) {
   const Surface surface = to_cgal(mesh);
-  std::vector<std::pair<Surface::Face_index, Surface::Face_index>> pairs;
+  std::vector<std::pair<Surface::Face_index, Surface::Face_index>> found;
   CGAL::Polygon_mesh_processing::self_intersections<CGAL::Sequential_tag>(
-      surface, std::back_inserter(pairs));
-  return static_cast<int>(pairs.size());
+      surface, std::back_inserter(found));
+  std::vector<std::pair<int, int>> pairs;
+  for (const auto& [f, g] : found) {
+    pairs.emplace_back(static_cast<int>(f.idx()), static_cast<int>(g.idx()));
+  }
+  return pairs;
 }
 
-int count_flipped(const Positions& sphere, const Triangles& triangles) {
-  const Point origin(0, 0, 0);
-  int count = 0;
-  for (int f = 0; f < triangles.rows(); ++f) {
-    // The sign of det(a, b, c), as for a triangle that is counter-clockwise from outside.
-    const auto turn =
-        CGAL::orientation(origin, point_of(sphere, triangles(f, 0)),
-                          point_of(sphere, triangles(f, 1)), point_of(sphere, triangles(f, 2)));
-    count += turn != CGAL::POSITIVE;
+std::vector<char> triangles_near_cuts(const Mesh& mesh) {
+  std::vector<char> is_corner(static_cast<std::size_t>(mesh.positions.rows()), 0);
+  const auto mark = [&](int triangle) {
+    for (const int v : mesh.triangles.row(triangle)) is_corner[static_cast<std::size_t>(v)] = 1;
+  };
+  for (const auto& [f, g] : self_intersections(mesh)) {
+    mark(f);
+    mark(g);
   }
-  return count;
-}
-
-double solid_angle(const Positions& sphere, const Triangles& triangles) {
-  double sum = 0;
-  for (int f = 0; f < triangles.rows(); ++f) {
-    const Eigen::Vector3d a = sphere.row(triangles(f, 0));
-    const Eigen::Vector3d b = sphere.row(triangles(f, 1));
-    const Eigen::Vector3d c = sphere.row(triangles(f, 2));
-    // van Oosterom and Strackee 1983
-    sum += 2 * std::atan2(a.dot(b.cross(c)), 1 + a.dot(b) + b.dot(c) + c.dot(a));
+  std::vector<char> is_near;
+  for (const auto& triangle : mesh.triangles.rowwise()) {
+    is_near.push_back(std::any_of(triangle.begin(), triangle.end(), [&](int v) {
+      return is_corner[static_cast<std::size_t>(v)] != 0;
+    }));
   }
-  return sum;
+  return is_near;
 }
 
 }  // namespace morphbake

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <utility>
+#include <vector>
+
 #include "morphbake/mesh/mesh.h"
 
 namespace morphbake {
@@ -13,13 +16,10 @@ double hausdorff_distance(const Mesh& from, const Mesh& to, double error_bound);
 /// count as well.
 ///
 /// @param mesh  an oriented manifold
-int count_self_intersections(const Mesh& mesh);
+std::vector<std::pair<int, int>> self_intersections(const Mesh& mesh);
 
-/// Triangles on the unit sphere that the origin does not see counter-clockwise from outside, by an
-/// exact predicate.
-int count_flipped(const Positions& sphere, const Triangles& triangles);
-
-/// Sum of the signed solid angles that triangles fill, seen from the origin.
-double solid_angle(const Positions& sphere, const Triangles& triangles);
+/// Marks the triangles that take part in self-intersections, and those that share a vertex with
+/// one.
+std::vector<char> triangles_near_cuts(const Mesh& mesh);
 
 }  // namespace morphbake

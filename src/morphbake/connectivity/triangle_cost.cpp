@@ -24,7 +24,8 @@ LayerTriangle layer_triangle(const Layer& layer, int a, int b, int c) {
 }
 
 double triangle_cost(const std::vector<LayerTriangle>& layers, int& folds) {
-  constexpr double kMost = 1e4;  // of one term: a triangle without area is bad enough
+  constexpr double kFold = 1000;  // 20 leaves ten times as many
+  constexpr double kMost = 1e4;   // of one term: a triangle without area is bad enough
   Vector3d mean = Vector3d::Zero();
   for (const LayerTriangle& layer : layers) mean += layer.squared_lengths;
   const RestTriangle rest = rest_triangle(mean / static_cast<double>(layers.size()), {1e-3, 1e-14});
@@ -36,7 +37,7 @@ double triangle_cost(const std::vector<LayerTriangle>& layers, int& folds) {
     const double ratio = 2 * rest.area / twice_area;
     const double distortion =
         0.5 * rest.cotangents.dot(layer.squared_lengths) * (1 + ratio * ratio) / (4 * rest.area);
-    const double turn = layer.cosine < 0 ? 20 : 10 * std::max(0.0, 0.3 - layer.cosine);
+    const double turn = layer.cosine < 0 ? kFold : 10 * std::max(0.0, 0.3 - layer.cosine);
     folds += layer.cosine < 0;
     worst = std::max(worst, std::min(shape, kMost) + std::min(distortion, kMost) + turn);
   }

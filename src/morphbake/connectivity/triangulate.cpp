@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "morphbake/connectivity/mend.h"
 #include "morphbake/connectivity/refine.h"
 #include "morphbake/connectivity/relax.h"
 #include "morphbake/connectivity/repair.h"
@@ -141,6 +142,7 @@ SharedTriangulation triangulate(const std::vector<SphericalMap>& maps, const Rem
     if ((is_last && is_fine && pass.changes < kFewChanges) || t.vertex_count() >= limit) break;
   }
   repair(t, points, goal, kBadTriangleAtEnd);
+  mend(t, points, goal, limit);
   advance(observer, {"triangulation", kRounds, kRounds});
   return finish(t);
 }

@@ -79,6 +79,20 @@ TEST(MeasureTriangulation, CountsPairsThatCutOneAnother) {
       measure_triangulation({surface_of(pair)}, triangulation_of(pair, {pair.positions}));
   EXPECT_EQ(quality.sources[0].self_intersections, 1);
   EXPECT_EQ(quality.sources[0].source_self_intersections, 1);
+  EXPECT_EQ(quality.sources[0].new_self_intersections, 0);
+}
+
+TEST(MeasureTriangulation, CallsPairsNewWhereTheSourceDoesNotCutItself) {
+  Mesh pair{Positions(6, 3), Triangles(2, 3)};
+  pair.positions << -1, -1, 0, 1, -1, 0, 0, 1, 0, 0, 0, 0.1, 0, 0, 1, 0, 5, 1;
+  pair.triangles << 0, 1, 2, 3, 4, 5;
+  Positions cut = pair.positions;
+  cut.row(3) << 0, 0, -0.1;
+  const TriangulationQuality quality =
+      measure_triangulation({surface_of(pair)}, triangulation_of(pair, {cut}));
+  EXPECT_EQ(quality.sources[0].self_intersections, 1);
+  EXPECT_EQ(quality.sources[0].source_self_intersections, 0);
+  EXPECT_EQ(quality.sources[0].new_self_intersections, 1);
 }
 
 TEST(MeasureTriangulation, ChecksTheSphereExactly) {

@@ -1,0 +1,137 @@
+#include "morphbake/connectivity/mend.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <limits>
+#include <optional>
+
+#include "morphbake/connectivity/relax.h"
+#include "morphbake/connectivity/repair.h"
+#include "morphbake/connectivity/surface_checks.h"
+#include "morphbake/connectivity/triangle_cost.h"
+
+namespace morphbake {
+namespace {
+
+constexpr int kRounds = 20;
+constexpr int kPatience = 6;        // rounds that may be worse than the best
+constexpr double kBadTriangle = 5;  // triangle_cost
+
+std::size_t index(int i) { return static_cast<std::size_t>(i); }
+
+/// The source's triangle below the middle of a triangle.
+int source_below(const LayeredTriangulation& t, const Layer& layer, int f) {
+  const int a = t.mesh.from(3 * f);
+  const Eigen::Vector3d middle = layer.sphere[index(a)] +
+                                 layer.sphere[index(t.mesh.from(3 * f + 1))] +
+                                 layer.sphere[index(t.mesh.from(3 * f + 2))];
+  return layer.atlas.locate(middle.normalized(), layer.triangle[index(a)]);
+}
+
+/// Triangles that cut others on one source where the source itself does not.
+std::vector<int> newly_cut(const LayeredTriangulation& t, const Layer& layer,
+                           std::vector<char>& near_source_cut) {
+  std::vector<int> slots;
+  for (int f = 0; f < t.mesh.triangle_slots(); ++f) {
+    if (t.mesh.has_triangle(f) && !t.is_cap(f)) slots.push_back(f);
+  }
+  Mesh mesh{Positions(t.mesh.vertex_slots(), 3),
+            Triangles(static_cast<Eigen::Index>(slots.size()), 3)};
+  for (int v = 0; v < t.mesh.vertex_slots(); ++v) mesh.positions.row(v) = layer.lifted[index(v)];
+  for (std::size_t i = 0; i < slots.size(); ++i) {
+    for (int k = 0; k < 3; ++k) {
+      mesh.triangles(static_cast<Eigen::Index>(i), k) = t.mesh.from(3 * slots[i] + k);
+    }
+  }
+  const std::vector<std::pair<int, int>> pairs = self_intersections(mesh);
+  std::vector<int> cut;
+  if (pairs.empty()) return cut;
+  if (near_source_cut.empty()) near_source_cut = triangles_near_cuts(layer.atlas.map->surface);
+  for (const auto& [i, j] : pairs) {
+    const int f = slots[index(i)], g = slots[index(j)];
+    const bool is_the_sources = near_source_cut[index(source_below(t, layer, f))] &&
+                                near_source_cut[index(source_below(t, layer, g))];
+    if (!is_the_sources) cut.insert(cut.end(), {f, g});
+  }
+  return cut;
+}
+
+/// Folded and newly cut triangles of all layers.
+std::vector<int> broken_triangles(const LayeredTriangulation& t,
+                                  std::vector<std::vector<char>>& near_source_cut) {
+  std::vector<std::vector<int>> cut(t.layers.size());
+  tbb::parallel_for(std::size_t{0}, t.layers.size(),
+                    [&](std::size_t s) { cut[s] = newly_cut(t, t.layers[s], near_source_cut[s]); });
+  std::vector<int> broken;
+  for (const std::vector<int>& of_layer : cut) {
+    broken.insert(broken.end(), of_layer.begin(), of_layer.end());
+  }
+  for (int f = 0; f < t.mesh.triangle_slots(); ++f) {
+    int folds = 0;
+    if (t.mesh.has_triangle(f)) triangle_cost(t, f, folds);
+    if (folds > 0) broken.push_back(f);
+  }
+  return broken;
+}
+
+/// The corners of triangles and what is around them.
+Patch patch_around(const LayeredTriangulation& t, const std::vector<int>& triangles) {
+  Patch patch{std::vector<char>(index(t.mesh.vertex_slots()), 0)};
+  for (const int f : triangles) {
+    for (int k = 0; k < 3; ++k) {
+      t.mesh.around(t.mesh.from(3 * f + k),
+                    [&](int h) { patch.vertices[index(t.mesh.to(h))] = 1; });
+    }
+  }
+  return patch;
+}
+
+/// Halves the edge of each triangle that is furthest from a source.
+void split_worst_edges(LayeredTriangulation& t, const std::vector<int>& triangles,
+                       int vertex_limit) {
+  for (const int f : triangles) {
+    if (!t.mesh.has_triangle(f) || t.vertex_count() >= vertex_limit) continue;
+    double worst = 0;
+    int edge = -1;
+    for (int h = 3 * f; h < 3 * f + 3; ++h) {
+      for (const Layer& layer : t.layers) {
+        const double deviation =
+            middle_deviation(layer, t.mesh.from(h), t.mesh.to(h), Eigen::Vector3d::Zero());
+        if (deviation <= worst) continue;
+        worst = deviation;
+        edge = h;
+      }
+    }
+    if (edge >= 0) split_edge_at(t, edge, places_on_edge(t, edge, 0.5));
+  }
+}
+
+}  // namespace
+
+void mend(LayeredTriangulation& t, SourcePoints& points, double tolerance, int vertex_limit) {
+  std::vector<std::vector<char>> near_source_cut(t.layers.size());
+  std::optional<LayeredTriangulation> best;
+  std::size_t fewest = std::numeric_limits<std::size_t>::max();
+  int since_best = 0;
+  for (int round = 0; round < kRounds; ++round) {
+    const std::vector<int> broken = broken_triangles(t, near_source_cut);
+    ++since_best;
+    if (broken.size() < fewest) {
+      best = t;
+      fewest = broken.size();
+      since_best = 0;
+    }
+    if (broken.empty() || since_best == kPatience) break;
+    const Patch patch = patch_around(t, broken);
+    split_worst_edges(t, broken, vertex_limit);
+    flip_edges(t, tolerance, patch);
+    // When relaxing does not help, or brings back what it mends, every other round does without.
+    if (since_best < 2 || since_best % 2 == 1) relax(t, {.sweeps = 2, .patch = patch});
+    flip_edges(t, tolerance, patch);
+    repair(t, points, tolerance, kBadTriangle, patch);
+  }
+  t = std::move(*best);
+}
+
+}  // namespace morphbake
