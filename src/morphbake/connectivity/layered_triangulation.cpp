@@ -74,6 +74,36 @@ Places places_on_edge(const LayeredTriangulation& t, int h, double fraction) {
   return places;
 }
 
+Places places_in_triangle(const LayeredTriangulation& t, int f, const Vector3d& weights) {
+  Places places;
+  for (const Layer& layer : t.layers) {
+    Vector3d place = Vector3d::Zero();
+    for (int k = 0; k < 3; ++k) place += weights(k) * layer.sphere[index(t.mesh.from(3 * f + k))];
+    places.push_back(place.normalized());
+  }
+  return places;
+}
+
+int triangle_over(const LayeredTriangulation& t, const Layer& layer, const Vector3d& x, int start) {
+  const auto corner = [&](int h) -> const Vector3d& { return layer.sphere[index(t.mesh.from(h))]; };
+  const auto opposite = [&](int h) { return t.mesh.opposite(h); };
+  if (t.mesh.has_triangle(start) && x.dot(corner(3 * start)) > 0) {
+    const int found = walk_to(x, start, 2000, corner, opposite);
+    if (found >= 0) return found;
+  }
+  int best = -1;
+  double best_weight = 0;
+  for (int f = 0; f < t.mesh.triangle_slots(); ++f) {
+    if (!t.mesh.has_triangle(f) || x.dot(corner(3 * f)) < 0) continue;
+    const double weight =
+        central_weights(x, corner(3 * f), corner(3 * f + 1), corner(3 * f + 2)).minCoeff();
+    if (best >= 0 && weight <= best_weight) continue;
+    best_weight = weight;
+    best = f;
+  }
+  return best;
+}
+
 int split_edge_at(LayeredTriangulation& t, int h, const Places& places) {
   const int a = t.mesh.from(h), b = t.mesh.to(h);
   const int c = t.mesh.apex(h), d = t.mesh.apex(t.mesh.opposite(h));

@@ -77,6 +77,15 @@ double middle_deviation(const Layer& layer, int a, int b, const Eigen::Vector3d&
 /// Where a vertex would lie in every layer.
 using Places = std::vector<Eigen::Vector3d>;
 
+/// Places at one barycentric place of a triangle in every layer.
+Places places_in_triangle(const LayeredTriangulation& t, int f, const Eigen::Vector3d& weights);
+
+/// The triangle of `t` over a place on the sphere in one layer.
+///
+/// @param start  a triangle near by; the nearer, the faster
+int triangle_over(const LayeredTriangulation& t, const Layer& layer, const Eigen::Vector3d& x,
+                  int start);
+
 /// Splits an edge.
 ///
 /// @param places  one a layer

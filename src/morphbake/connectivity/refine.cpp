@@ -21,27 +21,6 @@ constexpr double kNearEdge = 0.02;
 
 std::size_t index(int i) { return static_cast<std::size_t>(i); }
 
-/// The triangle of `t` over a place on the sphere in one layer.
-int locate(const LayeredTriangulation& t, const Layer& layer, const Vector3d& x, int start) {
-  const auto corner = [&](int h) -> const Vector3d& { return layer.sphere[index(t.mesh.from(h))]; };
-  const auto opposite = [&](int h) { return t.mesh.opposite(h); };
-  if (t.mesh.has_triangle(start) && x.dot(corner(3 * start)) > 0) {
-    const int found = walk_to(x, start, 2000, corner, opposite);
-    if (found >= 0) return found;
-  }
-  int best = -1;
-  double best_weight = 0;
-  for (int f = 0; f < t.mesh.triangle_slots(); ++f) {
-    if (!t.mesh.has_triangle(f) || x.dot(corner(3 * f)) < 0) continue;
-    const double weight =
-        central_weights(x, corner(3 * f), corner(3 * f + 1), corner(3 * f + 2)).minCoeff();
-    if (best >= 0 && weight <= best_weight) continue;
-    best_weight = weight;
-    best = f;
-  }
-  return best;
-}
-
 double distance_to(const LayeredTriangulation& t, const Layer& layer, int f, const Vector3d& p) {
   const auto corner = [&](int k) -> const Vector3d& {
     return layer.lifted[index(t.mesh.from(3 * f + k))];
@@ -61,7 +40,7 @@ void for_each_point(const LayeredTriangulation& t, SourcePoints& points, std::si
     if (layer.atlas.map->on_boundary[index(v)]) continue;
     int& triangle = points.triangle[s][index(v)];
     if (triangle >= 0 && t.mesh.has_triangle(triangle)) last = triangle;
-    last = triangle = locate(t, layer, layer.atlas.sphere[index(v)], last);
+    last = triangle = triangle_over(t, layer, layer.atlas.sphere[index(v)], last);
     each(v, triangle, distance_to(t, layer, triangle, layer.atlas.positions[index(v)]));
   }
 }
@@ -114,11 +93,7 @@ bool insert_point(LayeredTriangulation& t, int f, const Candidate& candidate) {
     places[candidate.layer] = place;
     v = split_edge_at(t, across, places);
   } else {
-    for (const Layer& other : t.layers) {
-      places.push_back((weights(0) * corner(other, 0) + weights(1) * corner(other, 1) +
-                        weights(2) * corner(other, 2))
-                           .normalized());
-    }
+    places = places_in_triangle(t, f, weights);
     places[candidate.layer] = place;
     v = split_triangle_at(t, f, places);
   }

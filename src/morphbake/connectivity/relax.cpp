@@ -75,7 +75,15 @@ class LayerRelaxation {
 
  private:
   bool is_movable(int v) const {
-    return !t_.is_fixed[index(v)] && options_.patch.has(v) && !captures_feature(v);
+    return !t_.is_fixed[index(v)] && options_.patch.has(v) && !is_on_hard_edge(v) &&
+           !captures_feature(v);
+  }
+
+  bool is_on_hard_edge(int v) const {
+    if (t_.hard_edges.empty()) return false;
+    bool is_hard = false;
+    t_.mesh.around(v, [&](int h) { is_hard |= t_.is_hard(h); });
+    return is_hard;
   }
 
   bool captures_feature(int v) const {
@@ -92,7 +100,6 @@ class LayerRelaxation {
       if (t_.is_cap(ClosedMesh::triangle_of(h))) return;
       const Vector3d n = area_normal(layer_, v, t_.mesh.to(h), t_.mesh.apex(h));
       captures |= n.dot(sum) < options_.feature_cosine * n.norm();
-      captures |= t_.is_hard(h);
     });
     return captures;
   }

@@ -18,12 +18,14 @@ struct SharedTriangulation {
   std::vector<int> landmarks;               ///< vertex of each landmark
   std::vector<char> on_boundary;            ///< #V
   std::vector<Eigen::Vector2i> hard_edges;  ///< a < b, of any source
+  int rounded_hard_edges = 0;               ///< of sources: those for which there was no room
 };
 
 /// Triangulates all sources alike over the sphere on which they lie.
 ///
 /// Starts coarse from the first source, relaxes for low distortion, inserts the worst source
-/// vertices until every source is met within `max_error`, then repairs.
+/// vertices until every source is met within `max_error`, repairs, and lays edges along the
+/// sources' hard edges.
 /// @param maps  of map_to_sphere
 /// @throws BakeError "connectivity...."; Cancelled
 SharedTriangulation triangulate(const std::vector<SphericalMap>& maps, const RemeshOptions& options,

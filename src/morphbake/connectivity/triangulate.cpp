@@ -6,6 +6,7 @@
 #include "morphbake/connectivity/relax.h"
 #include "morphbake/connectivity/repair.h"
 #include "morphbake/connectivity/shared_triangulation.h"
+#include "morphbake/connectivity/trace_hard_edges.h"
 
 // Tried and dropped: refining in equal steps without waiting for the error to follow (folds of
 // limbs that are found late stay: mean distortion of two bodies 1.20 instead of 1.13); repairing
@@ -85,6 +86,13 @@ SharedTriangulation finish(const LayeredTriangulation& t) {
     shared.on_boundary.push_back(t.on_boundary[index(v)]);
   }
   for (const int v : t.landmarks) shared.landmarks.push_back(number[index(v)]);
+  for (const std::uint64_t key : t.hard_edges) {
+    const int a = number[key >> 32], b = number[key & 0xffffffff];
+    shared.hard_edges.emplace_back(std::min(a, b), std::max(a, b));
+  }
+  std::sort(shared.hard_edges.begin(), shared.hard_edges.end(), [](const auto& x, const auto& y) {
+    return std::pair(x(0), x(1)) < std::pair(y(0), y(1));
+  });
   std::vector<int> corners;
   for (int f = 0; f < t.mesh.triangle_slots(); ++f) {
     if (!t.mesh.has_triangle(f) || t.is_cap(f)) continue;
@@ -142,9 +150,13 @@ SharedTriangulation triangulate(const std::vector<SphericalMap>& maps, const Rem
     if ((is_last && is_fine && pass.changes < kFewChanges) || t.vertex_count() >= limit) break;
   }
   repair(t, points, goal, kBadTriangleAtEnd);
+  const int missed = trace_hard_edges(t, limit);
+  if (!t.hard_edges.empty()) repair(t, points, goal, kBadTriangleAtEnd);
   mend(t, points, goal, limit);
   advance(observer, {"triangulation", kRounds, kRounds});
-  return finish(t);
+  SharedTriangulation shared = finish(t);
+  shared.rounded_hard_edges = missed;
+  return shared;
 }
 
 }  // namespace morphbake

@@ -1,6 +1,8 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "morphbake/connectivity/shared_triangulation.h"
 #include "morphbake/correspondence/check_map.h"
@@ -133,6 +135,66 @@ TEST(Triangulate, LiesOnClosedSourcesAndMeetsLandmarksExactly) {
   expect_shared(sources, shared, false);
   const SharedTriangulation again = triangulate(maps, options, {});
   EXPECT_EQ(again.geometries[1], shared.geometries[1]);  // the same bytes each time
+}
+
+/// Edges of a mesh whose ends fulfil a condition.
+template <typename Condition>
+std::vector<Eigen::Vector2i> edges_where(const Mesh& mesh, const Condition& condition) {
+  std::vector<Eigen::Vector2i> edges;
+  for (const auto& triangle : mesh.triangles.rowwise()) {
+    for (int k = 0; k < 3; ++k) {
+      const int u = triangle(k), v = triangle((k + 1) % 3);
+      if (u < v && condition(mesh.positions.row(u)) && condition(mesh.positions.row(v))) {
+        edges.emplace_back(u, v);
+      }
+    }
+  }
+  return edges;
+}
+
+double segment_distance(const Eigen::RowVector3d& p, const Eigen::RowVector3d& a,
+                        const Eigen::RowVector3d& b) {
+  const double along = std::clamp((p - a).dot(b - a) / (b - a).squaredNorm(), 0.0, 1.0);
+  return (p - a - along * (b - a)).norm();
+}
+
+TEST(Triangulate, LaysEdgesAlongTheHardEdgesOfEverySource) {
+  std::vector<SourceSurface> sources = two_spheres();
+  // A closed ring on one, on the other half a ring that crosses it.
+  sources[0].hard_edges = edges_where(
+      sources[0].mesh, [](const Eigen::RowVector3d& p) { return std::abs(p.y()) < 1e-9; });
+  sources[1].hard_edges = edges_where(test::sphere(17, 23), [](const Eigen::RowVector3d& p) {
+    return std::abs(p.z()) < 1e-9 && p.x() > 0.1;
+  });
+  ASSERT_EQ(sources[0].hard_edges.size(), 16u);
+  ASSERT_GT(sources[1].hard_edges.size(), 8u);
+  RemeshOptions options;
+  options.max_error = 0.005;
+  options.target_edge_length = 0.1;
+  const SharedTriangulation shared = triangulate(map_to_sphere(sources, {}), options, {});
+  expect_shared(sources, shared, false);
+  EXPECT_EQ(shared.rounded_hard_edges, 0);
+  std::set<std::pair<int, int>> edges;
+  for (const auto& triangle : shared.connectivity.triangles.rowwise()) {
+    for (int k = 0; k < 3; ++k) edges.insert(std::minmax(triangle(k), triangle((k + 1) % 3)));
+  }
+  for (const Eigen::Vector2i& edge : shared.hard_edges) {
+    EXPECT_TRUE(edges.count({edge(0), edge(1)}));
+  }
+  for (std::size_t s = 0; s < 2; ++s) {
+    const Positions& at = shared.geometries[s];
+    for (const Eigen::Vector2i& edge : sources[s].hard_edges) {
+      for (const double share : {0.0, 0.3, 0.5, 0.9}) {
+        const Eigen::RowVector3d p = (1 - share) * sources[s].mesh.positions.row(edge(0)) +
+                                     share * sources[s].mesh.positions.row(edge(1));
+        double nearest = 1e300;
+        for (const Eigen::Vector2i& hard : shared.hard_edges) {
+          nearest = std::min(nearest, segment_distance(p, at.row(hard(0)), at.row(hard(1))));
+        }
+        EXPECT_LT(nearest, options.max_error * 4);  // the diagonals are 3.5 and 4.1
+      }
+    }
+  }
 }
 
 TEST(Triangulate, KeepsTheBorderOfDisksOnTheBorder) {
