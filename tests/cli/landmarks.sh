@@ -22,7 +22,21 @@ stderr_has "[landmarks.off-surface]"
 echo '{"version": 1, "landmarks": {"a": {"vertex": 999999}, "b": {"face": 0}}}' >broken.json
 run 2 landmarks show "$shapes/face.glb" --landmarks broken.json -o show.png
 stderr_has "[landmarks.missing-field]"
+echo '{"version": 1, "landmarks": {"a": {"vertex": 999999}}}' >broken.json
+run 2 landmarks show "$shapes/face.glb" --landmarks broken.json -o show.png
+stderr_has "[landmarks.out-of-range]"
+echo '{"version": 1, "landmarks": {"a": {"vertex": 0}, "b": {"vertex": 0}}}' >broken.json
+run 2 landmarks show "$shapes/face.glb" --landmarks broken.json -o show.png
+stderr_has "[landmarks.same-point]"
+echo '{"version": 1, "landmarks": {"a": {"vertex": 0}, "a": {"vertex": 1}}}' >broken.json
+run 2 landmarks show "$shapes/face.glb" --landmarks broken.json -o show.png
+stderr_has "[json.duplicate-key]"
+echo '{"version": 1, "landmarks": {' >broken.json
+run 2 landmarks show "$shapes/face.glb" --landmarks broken.json -o show.png
+stderr_has "[json.syntax]"
 rm broken.json
+run 4 landmarks suggest "$shapes/cow.landmarks.json" "$shapes/pig.glb" -o out
+stderr_has "[gltf.not-gltf]"
 run 2 landmarks suggest "$shapes/cow.glb" "$shapes/pig.glb"  # beside them are files already
 stderr_has "[usage.would-overwrite]"
 no_file_in .

@@ -18,8 +18,9 @@ namespace {
 constexpr double kPlaceWeight = 0.3;
 constexpr double kMeanWeight = 1.0;
 constexpr double kPairWeight = 1.0;
-constexpr double kPairLimit = 0.3;  // a tail that is far too long shall not spoil all others
-constexpr double kAlone = 0.25;     // a tip without partner; two such cost more than a bad pair
+constexpr double kAloneInPose = 0.02;  // without places: an arm may hang or be stretched out
+constexpr double kPairLimit = 0.3;     // a tail that is far too long shall not spoil all others
+constexpr double kAlone = 0.25;        // a tip without partner; two such cost more than a bad pair
 constexpr double kAloneAtLast = 0.4;
 constexpr std::size_t kFewestToCompare = 2;
 constexpr int kRounds = 6;
@@ -40,7 +41,7 @@ Eigen::Vector3d tip_position(const ShapeSketch& shape, int tip) {
 
 /// Cost of each pair of tips by itself.
 Eigen::MatrixXd single_costs(const ShapeSketch& a, const ShapeSketch& b, const Frame& frame_a,
-                             const Frame& frame_b) {
+                             const Frame& frame_b, double place_weight) {
   const auto rows = static_cast<int>(a.tips.size()), columns = static_cast<int>(b.tips.size());
   Eigen::MatrixXd cost(rows, columns);
   for (int i = 0; i < rows; ++i) {
@@ -49,7 +50,7 @@ Eigen::MatrixXd single_costs(const ShapeSketch& a, const ShapeSketch& b, const F
           (frame_a.in_box(tip_position(a, i)) - frame_b.in_box(tip_position(b, j))).squaredNorm();
       const double mean = a.mean_distance(a.tips[static_cast<std::size_t>(i)].vertex) -
                           b.mean_distance(b.tips[static_cast<std::size_t>(j)].vertex);
-      cost(i, j) = kPlaceWeight * apart + kMeanWeight * mean * mean;
+      cost(i, j) = place_weight * apart + kMeanWeight * mean * mean;
     }
   }
   return cost;
@@ -131,6 +132,28 @@ Positions surface_samples(const Mesh& mesh) {
   return samples;
 }
 
+/// Gives tips that have no partner one, by a cost that looks at places or does not.
+void match_lonely(const ShapeSketch& a, const ShapeSketch& b, Alignment& alignment,
+                  double place_weight, double alone) {
+  std::vector<int>& partner = alignment.partner;
+  std::vector<int> rows, columns;
+  for (int i = 0; i < static_cast<int>(partner.size()); ++i) {
+    if (partner[static_cast<std::size_t>(i)] < 0) rows.push_back(i);
+  }
+  for (int j = 0; j < static_cast<int>(b.tips.size()); ++j) {
+    if (std::find(partner.begin(), partner.end(), j) == partner.end()) columns.push_back(j);
+  }
+  // Too little to compare with: any two tips would do.
+  if (partner.size() < rows.size() + kFewestToCompare) return;
+  const Eigen::MatrixXd single = single_costs(a, b, alignment.a, alignment.b, place_weight);
+  const Eigen::MatrixXd cost = with_pairs(a, b, single, partner);
+  const std::vector<int> found = assign(cost(rows, columns), alone);
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    if (found[i] < 0) continue;
+    partner[static_cast<std::size_t>(rows[i])] = columns[static_cast<std::size_t>(found[i])];
+  }
+}
+
 }  // namespace
 
 Frame frame_along(const Mesh& mesh, const Eigen::Matrix3d& axes) {
@@ -151,7 +174,7 @@ Eigen::Matrix3d principal_axes(const Mesh& mesh) {
 
 Alignment align_in(const ShapeSketch& a, const ShapeSketch& b, const Frame& frame_a,
                    const Frame& frame_b) {
-  const Eigen::MatrixXd single = single_costs(a, b, frame_a, frame_b);
+  const Eigen::MatrixXd single = single_costs(a, b, frame_a, frame_b, kPlaceWeight);
   Alignment best{frame_a, frame_b, assign(single, kAlone), 0};
   std::vector<int> partner = best.partner;
   best.cost = std::numeric_limits<double>::infinity();
@@ -195,23 +218,8 @@ Alignment align_shapes(const ShapeSketch& a, const ShapeSketch& b, Handedness ha
 }
 
 void match_rest(const ShapeSketch& a, const ShapeSketch& b, Alignment& alignment) {
-  std::vector<int>& partner = alignment.partner;
-  std::vector<int> rows, columns;
-  for (int i = 0; i < static_cast<int>(partner.size()); ++i) {
-    if (partner[static_cast<std::size_t>(i)] < 0) rows.push_back(i);
-  }
-  for (int j = 0; j < static_cast<int>(b.tips.size()); ++j) {
-    if (std::find(partner.begin(), partner.end(), j) == partner.end()) columns.push_back(j);
-  }
-  // Too little to compare with: any two tips would do.
-  if (partner.size() < rows.size() + kFewestToCompare) return;
-  const Eigen::MatrixXd cost =
-      with_pairs(a, b, single_costs(a, b, alignment.a, alignment.b), partner);
-  const std::vector<int> found = assign(cost(rows, columns), kAloneAtLast);
-  for (std::size_t i = 0; i < found.size(); ++i) {
-    if (found[i] < 0) continue;
-    partner[static_cast<std::size_t>(rows[i])] = columns[static_cast<std::size_t>(found[i])];
-  }
+  match_lonely(a, b, alignment, kPlaceWeight, kAloneAtLast);
+  match_lonely(a, b, alignment, 0, kAloneInPose);
 }
 
 double surface_distance(const ShapeSketch& a, const ShapeSketch& b, const Alignment& alignment,

@@ -15,7 +15,9 @@ constexpr double kFacingWeight = 0.03;
 constexpr double kDistanceLimit = 0.3;  // of the squares of differences, as in alignments
 constexpr double kNear = 0.2;           // in `reach`: how near a landmark must be to count most
 constexpr double kApart = 0.2;          // in `reach`: least distance between landmarks
-constexpr double kOfTip = 0.25;         // in `reach`: what belongs to a tip
+constexpr double kTipsApart = 0.12;     // likewise, of tips that only one shape has
+constexpr double kOnPlane = 0.1;        // in `reach`: from a vertex on the plane to that across
+constexpr double kOfTip = 0.15;         // in `reach`: what belongs to a tip
 constexpr double kOffPlane = 0.06;      // of the diagonal: nearer to the mirror plane is on it
 
 Normals vertex_normals(const Mesh& mesh) {
@@ -61,7 +63,8 @@ void add_pair(Correspondences& all, int a, int b, PairKind kind, bool mirrors_la
   all.b.from_landmark.push_back(all.b.distances.from(b) / all.b.sketch.reach);
 }
 
-std::optional<int> transferred(const Side& from, const Side& to, int vertex, PairKind kind) {
+std::optional<int> transferred(const Side& from, const Side& to, int vertex, PairKind kind,
+                               Lies lies) {
   const Eigen::Vector3d place = from.frame.in_box(from.position(vertex));
   const Eigen::Vector3d facing = from.frame.axes.transpose() * from.normals.row(vertex).transpose();
   Eigen::VectorXd cost(to.sketch.mesh.positions.rows());
@@ -86,10 +89,20 @@ std::optional<int> transferred(const Side& from, const Side& to, int vertex, Pai
       cost = (distance.array() < kOfTip).select(cost.array() + 1, cost.array());
     }
   }
+  // Far points are not missed where a landmark is near; tips are, and move aside.
   int best = 0;
-  cost.minCoeff(&best);
-  if (to.to_landmark(best) < kApart) return std::nullopt;
-  return best;
+  if (kind != PairKind::Tip) {
+    cost.minCoeff(&best);
+    return to.to_landmark(best) < kApart ? std::nullopt : std::optional<int>(best);
+  }
+  for (int v = 0; v < cost.size(); ++v) {
+    const double across = 2 * std::abs(to.symmetry.side_of(to.position(v))) / to.sketch.reach;
+    const bool is_wrong = (lies == Lies::OffPlane && across < kTipsApart) ||
+                          (lies == Lies::OnPlane && across > kOnPlane);
+    const bool is_taken = to.to_landmark(v) < kTipsApart || (to.symmetry.is_exact && is_wrong);
+    if (is_taken) cost(v) = std::numeric_limits<double>::infinity();
+  }
+  return std::isfinite(cost.minCoeff(&best)) ? std::optional<int>(best) : std::nullopt;
 }
 
 int add_transferred(Correspondences& all, const Transfer& transfer, int most) {
@@ -98,20 +111,33 @@ int add_transferred(Correspondences& all, const Transfer& transfer, int most) {
   const Side& to = on_a ? all.b : all.a;
   const int needed = transfer.twin < 0 ? 1 : 2;
   if (most < needed) return 0;
-  const auto add = [&](int here, bool mirrors_last) {
+  const double apart = transfer.kind == PairKind::Tip ? kTipsApart : kApart;
+  const Lies lies = transfer.twin >= 0   ? Lies::OffPlane
+                    : transfer.is_middle ? Lies::OnPlane
+                                         : Lies::Anywhere;
+  const auto add = [&](int here, int base, bool mirrors_last) {
     if (from.to_landmark(here) < kApart) return false;
-    std::optional<int> there = transferred(from, to, here, transfer.kind);
+    std::optional<int> there;
     // The other shape's own symmetry is more exact than two searches.
     if (mirrors_last && to.symmetry.is_exact) {
       there = to.across(on_a ? all.pairs.back().b : all.pairs.back().a);
-      if (to.to_landmark(*there) < kApart) there.reset();
+      if (to.to_landmark(*there) < apart) there.reset();
+    } else {
+      there = transferred(from, to, base, transfer.kind, mirrors_last ? Lies::Anywhere : lies);
     }
     if (!there) return false;
     add_pair(all, on_a ? here : *there, on_a ? *there : here, transfer.kind, mirrors_last);
     return true;
   };
-  if (!add(transfer.vertex, false)) return 0;
-  return transfer.twin >= 0 && add(transfer.twin, true) ? 2 : 1;
+  if (!add(transfer.vertex, transfer.base, false)) return 0;
+  if (transfer.twin < 0) return 1;
+  if (add(transfer.twin, transfer.twin_base, true)) return 2;
+  // One ear of two would make the other shape lopsided.
+  if (transfer.kind != PairKind::Tip) return 1;
+  all.pairs.pop_back();
+  all.a.from_landmark.pop_back();
+  all.b.from_landmark.pop_back();
+  return 0;
 }
 
 }  // namespace morphbake

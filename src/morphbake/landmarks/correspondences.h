@@ -54,19 +54,28 @@ struct Correspondences {
 /// Adds a pair, of the same unit as the last when it is its mirror image.
 void add_pair(Correspondences& all, int a, int b, PairKind kind, bool mirrors_last);
 
+/// Where a point lies on a shape that is its own mirror image: on the plane as a nose, or so far
+/// off it that the point across is another one.
+enum class Lies { Anywhere, OnPlane, OffPlane };
+
 /// Where a vertex of one shape lies on the other: alike in its distances to the landmarks, above
 /// all the near ones, in its place in the box, and in the direction that it faces.
 ///
 /// @param kind  a tip that only `from` has goes to no tip of `to`
+/// @param lies  where it shall lie if `to` is its own mirror image
 /// @return      nothing when a landmark is there already
-std::optional<int> transferred(const Side& from, const Side& to, int vertex, PairKind kind);
+std::optional<int> transferred(const Side& from, const Side& to, int vertex, PairKind kind,
+                               Lies lies);
 
-/// A vertex of one shape that shall get a counterpart on the other.
+/// A vertex of one shape, and the one across, that shall get counterparts on the other.
 struct Transfer {
-  bool on_a = true;  ///< whose vertex it is
+  bool on_a = true;  ///< whose vertices they are
   int vertex = 0;
   int twin = -1;  ///< the vertex across, which goes with it, or -1
   PairKind kind = PairKind::Tip;
+  int base = 0;            ///< the vertex whose counterpart is looked for: where a tip grows
+  int twin_base = 0;       ///< likewise of the twin
+  bool is_middle = false;  ///< whether the vertex is its own mirror image
 };
 
 /// Adds a vertex and its twin with their counterparts, unless landmarks are there already.

@@ -19,6 +19,7 @@ constexpr int kSketchVertices = 6000;
 constexpr int kSamples = 40;               // sources of distances that stand for the whole surface
 constexpr double kLeastProminence = 0.02;  // of the reach: below it are bumps of the triangulation
 constexpr double kApart = 0.2;             // of the reach: closer ones are one tip, such as a foot
+constexpr double kShort = 0.1;             // of the reach: such a bump grows where it is
 constexpr std::size_t kMostTips = 16;
 
 /// The piece of a surface with the largest area.
@@ -110,6 +111,11 @@ std::vector<Tip> find_tips(const Eigen::VectorXd& height, const OneRings& rings)
   std::sort(order.begin(), order.end(), is_higher);
   Hills hills(order.size());
   std::vector<Tip> tips;
+  std::vector<double> length(order.size(), 0);
+  const auto end_at = [&](int peak, double saddle) {
+    double& own = length[static_cast<std::size_t>(peak)];
+    if (own == 0) own = height(peak) - saddle;
+  };
   for (const int v : order) {
     hills.rise(v);
     const auto i = static_cast<std::size_t>(v);
@@ -120,15 +126,36 @@ std::vector<Tip> find_tips(const Eigen::VectorXd& height, const OneRings& rings)
       if (low == high) continue;
       if (is_higher(low, high)) std::swap(low, high);
       const double prominence = height(low) - height(v);
-      if (prominence > kLeastProminence) tips.push_back({low, prominence});
+      if (prominence > kLeastProminence) {
+        tips.push_back({low, prominence});
+        end_at(low, height(v));
+        end_at(high, height(v));
+      }
       hills.join(low, high);
     }
   }
   const double range = height.maxCoeff() - height.minCoeff();
   if (range > kLeastProminence) tips.push_back({order.front(), range});
+  for (Tip& tip : tips) {
+    tip.length = length[static_cast<std::size_t>(tip.vertex)];
+    if (tip.length == 0) tip.length = tip.prominence;
+  }
   std::stable_sort(tips.begin(), tips.end(),
                    [](const Tip& a, const Tip& b) { return a.prominence > b.prominence; });
   return tips;
+}
+
+/// The vertex closest to a tip among those that are no part of its protrusion.
+int base_of(const Tip& tip, const Eigen::VectorXd& height, const Eigen::VectorXd& from_tip) {
+  int base = tip.vertex;
+  if (tip.length < kShort) return base;
+  double nearest = std::numeric_limits<double>::infinity();
+  for (int v = 0; v < height.size(); ++v) {
+    if (height(v) > height(tip.vertex) - tip.length || from_tip(v) >= nearest) continue;
+    nearest = from_tip(v);
+    base = v;
+  }
+  return base;
 }
 
 }  // namespace
@@ -151,6 +178,7 @@ ShapeSketch sketch_shape(const Mesh& surface) {
     if (!is_new || sketch.tips.size() == kMostTips) continue;
     sketch.tips.push_back(tip);
     sketch.from_tip.push_back(distances.from(tip.vertex) / sketch.reach);
+    sketch.tips.back().base = base_of(tip, sketch.mean_distance, sketch.from_tip.back());
   }
   sketch.boundary = longest_boundary(sketch.mesh);
   return sketch;

@@ -10,6 +10,8 @@ namespace morphbake {
 struct Tip {
   int vertex = 0;         ///< of the sketch
   double prominence = 0;  ///< how far the peak stands above its saddle, in `ShapeSketch::reach`
+  double length = 0;      ///< how far it stands above the first saddle to another tip, likewise
+  int base = 0;           ///< the vertex there that is nearest: where the protrusion grows
 };
 
 /// What is compared of a shape: a coarse copy of its largest piece, its tips and distances from

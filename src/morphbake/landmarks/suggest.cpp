@@ -20,6 +20,9 @@ constexpr int kFewest = 3;
 constexpr double kFarthest = 0.15;       // in `reach`: nearer points say nothing new
 constexpr double kMirrorFits = 0.3;      // of the distance without a mirror
 constexpr double kMirrorMatters = 0.01;  // of the diagonal
+constexpr double kOnPlane = 0.05;        // in `reach`: is on the mirror plane
+constexpr double kStandsOut = 0.5;       // in boxes of half size 1
+constexpr double kApartOfSummit = 0.2;   // in `reach`
 constexpr double kOnRim = 0.15;          // in `reach`: such a tip is a corner of the rim
 
 /// A tip, or a mirrored pair of tips, that waits to become landmarks.
@@ -124,6 +127,9 @@ void add_tips(Correspondences& all, const std::vector<int>& partner, int count) 
   const auto tip_vertex = [](const Side& side, int tip) {
     return side.sketch.tips[static_cast<std::size_t>(tip)].vertex;
   };
+  const auto base_vertex = [](const Side& side, int tip) {
+    return side.sketch.tips[static_cast<std::size_t>(tip)].base;
+  };
   for (const TipUnit& unit : matched_units(all.a, all.b, partner)) {
     if (static_cast<int>(unit.tips.size()) > room(all, count)) continue;
     for (std::size_t i = 0; i < unit.tips.size(); ++i) {
@@ -136,22 +142,73 @@ void add_tips(Correspondences& all, const std::vector<int>& partner, int count) 
     const Side& side = a >= 0 ? all.a : all.b;
     const int tip = a >= 0 ? a : b;
     const int across = side.symmetry.mirrored[static_cast<std::size_t>(tip)];
-    const int twin = across >= 0 && across != tip ? tip_vertex(side, across) : -1;
-    add_transferred(all, {a >= 0, tip_vertex(side, tip), twin, PairKind::Tip}, room(all, count));
+    Transfer transfer{a >= 0, tip_vertex(side, tip), -1, PairKind::Tip, base_vertex(side, tip), 0};
+    transfer.is_middle = across == tip;
+    if (across >= 0 && across != tip) {
+      transfer.twin = tip_vertex(side, across);
+      transfer.twin_base = base_vertex(side, across);
+    }
+    add_transferred(all, transfer, room(all, count));
   }
 }
 
-/// The vertex of a loop that reaches furthest in a direction of the shape's box.
+/// The vertex of the rim that reaches furthest in a direction of the shape's box; where that is no
+/// sideways, of those on the mirror plane if the rim crosses it.
 int furthest_on_rim(const Side& side, const Eigen::Vector3d& direction) {
   const std::vector<int>& rim = side.sketch.boundary;
-  const auto reach = [&](int vertex) {
+  const Eigen::Vector3d sideways = side.frame.axes.transpose() * side.symmetry.sideways;
+  const bool is_middle = side.symmetry.is_exact && std::abs(sideways.dot(direction)) < 0.3;
+  const auto height = [&](int vertex) {
     return direction.dot(side.frame.in_box(side.position(vertex)));
   };
-  return *std::max_element(rim.begin(), rim.end(),
-                           [&](int x, int y) { return reach(x) < reach(y); });
+  int best = -1;
+  const auto look = [&](bool on_plane) {
+    for (const int vertex : rim) {
+      if (on_plane &&
+          std::abs(side.symmetry.side_of(side.position(vertex))) > kOnPlane * side.sketch.reach) {
+        continue;
+      }
+      if (best < 0 || height(vertex) > height(best)) best = vertex;
+    }
+  };
+  if (is_middle) look(true);
+  if (best < 0) look(false);
+  return best;
 }
 
-/// Four points of the rims: the furthest along the two axes in which they are widest.
+/// The point that stands out most before the rim, as a nose does: the furthest along the axis in
+/// which the rim is narrowest.
+void add_summit(Correspondences& all, const Eigen::Vector3d& axis) {
+  const auto height = [&](const Side& side, int vertex) {
+    return axis.dot(side.frame.in_box(side.position(vertex)));
+  };
+  const auto of_rim = [&](const Side& side) {
+    double sum = 0;
+    for (const int vertex : side.sketch.boundary) sum += height(side, vertex);
+    return sum / static_cast<double>(side.sketch.boundary.size());
+  };
+  const auto summit = [&](const Side& side, double sign) {
+    int best = 0;
+    for (int v = 1; v < side.sketch.mesh.positions.rows(); ++v) {
+      if (sign * height(side, v) > sign * height(side, best)) best = v;
+    }
+    return best;
+  };
+  const double rim_a = of_rim(all.a);
+  const int high = summit(all.a, 1), low = summit(all.a, -1);
+  const double sign = height(all.a, high) - rim_a >= rim_a - height(all.a, low) ? 1 : -1;
+  const int a = sign > 0 ? high : low, b = summit(all.b, sign);
+  const bool stands_out = sign * (height(all.a, a) - rim_a) > kStandsOut &&
+                          sign * (height(all.b, b) - of_rim(all.b)) > kStandsOut;
+  if (!stands_out || all.a.to_landmark(a) < kApartOfSummit ||
+      all.b.to_landmark(b) < kApartOfSummit) {
+    return;
+  }
+  add_pair(all, a, b, PairKind::Tip, false);
+}
+
+/// Four points of the rims, the furthest along the two axes in which they are widest; and the
+/// summit.
 void add_rim(Correspondences& all, int count) {
   if (all.a.sketch.boundary.empty() || all.b.sketch.boundary.empty()) return;
   std::array<std::pair<double, int>, 3> widths;
@@ -178,6 +235,7 @@ void add_rim(Correspondences& all, int count) {
       has_first = true;
     }
   }
+  add_summit(all, Eigen::Vector3d::Unit(widths[2].second));
 }
 
 /// Points of the first shape that are far from all landmarks, until there are enough.
@@ -199,8 +257,9 @@ void add_far_points(Correspondences& all, int count) {
       return;
     }
     // Where a landmark of the other shape is in the way, the next farthest is tried.
-    const Transfer single{true, next, -1, PairKind::Point};
-    const Transfer pair{true, next, all.a.twin(next), PairKind::Point};
+    const int twin = all.a.twin(next);
+    const Transfer single{true, next, -1, PairKind::Point, next, 0};
+    const Transfer pair{true, next, twin, PairKind::Point, next, twin};
     const int added = add_transferred(all, room(all, count) > 1 ? pair : single, room(all, count));
     if (added == 0) nearest(next) = 0;
   }
@@ -267,9 +326,11 @@ void warn_if_uncertain(const Observer& observer, const SourceSurface& a, const S
 SuggestedLandmarks suggest_landmarks(const SourceSurface& a, const SourceSurface& b,
                                      const SuggestOptions& options, const Observer& observer) {
   advance(observer, {"landmarks", 0, 4});
-  const ShapeSketch sketch_a = sketch_shape(a.mesh);
+  ShapeSketch sketch_a = sketch_shape(a.mesh);
+  drop_branches(sketch_a);
   advance(observer, {"landmarks", 1, 4});
-  const ShapeSketch sketch_b = sketch_shape(b.mesh);
+  ShapeSketch sketch_b = sketch_shape(b.mesh);
+  drop_branches(sketch_b);
   advance(observer, {"landmarks", 2, 4});
   warn_of_pieces(observer, a, sketch_a);
   warn_of_pieces(observer, b, sketch_b);

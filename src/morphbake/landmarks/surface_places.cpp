@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <limits>
+#include <utility>
 
+#include "morphbake/mesh/adjacency.h"
 #include "morphbake/mesh/boundary.h"
 #include "morphbake/mesh/closest_point.h"
 #include "morphbake/mesh/measures.h"
@@ -25,20 +27,39 @@ Eigen::RowVector3d pointing(const Side& side, const Eigen::VectorXd& distance, i
   return side.sketch.mesh.positions.row(vertex) - sum / std::max(count, 1);
 }
 
-/// The vertex of `surface` near `start` that lies furthest in `direction`.
-Eigen::RowVector3d outermost(const Mesh& surface, const Eigen::RowVector3d& start,
-                             const Eigen::RowVector3d& direction, double around) {
+/// The vertex of `surface` near `start` that lies furthest in `direction`: of those that are joined
+/// to `first` near by, so that a finger does not give its tip to the next.
+Eigen::RowVector3d outermost(const Mesh& surface, const OneRings& rings, int first,
+                             const Eigen::RowVector3d& start, const Eigen::RowVector3d& direction,
+                             double around) {
+  std::vector<int> reached = {first};
+  std::vector<char> is_reached(static_cast<std::size_t>(surface.positions.rows()), 0);
+  is_reached[static_cast<std::size_t>(first)] = 1;
   Eigen::RowVector3d best = start;
   double furthest = -std::numeric_limits<double>::infinity();
-  for (Eigen::Index v = 0; v < surface.positions.rows(); ++v) {
-    const Eigen::RowVector3d position = surface.positions.row(v);
+  for (std::size_t i = 0; i < reached.size(); ++i) {
+    const auto v = static_cast<std::size_t>(reached[i]);
+    const Eigen::RowVector3d position = surface.positions.row(reached[i]);
     if ((position - start).squaredNorm() > around * around) continue;
-    const double reach = position.dot(direction);
-    if (reach <= furthest) continue;
-    furthest = reach;
-    best = position;
+    if (position.dot(direction) > furthest) {
+      furthest = position.dot(direction);
+      best = position;
+    }
+    for (int n = rings.offsets[v]; n < rings.offsets[v + 1]; ++n) {
+      const int neighbour = rings.neighbours[static_cast<std::size_t>(n)];
+      if (std::exchange(is_reached[static_cast<std::size_t>(neighbour)], 1) == 0) {
+        reached.push_back(neighbour);
+      }
+    }
   }
   return best;
+}
+
+/// The corner of the point's triangle that has most of it.
+int nearest_corner(const Mesh& surface, const SurfacePoint& point) {
+  Eigen::Index largest = 0;
+  point.barycentric.maxCoeff(&largest);
+  return surface.triangles(point.triangle, largest);
 }
 
 Eigen::RowVector3d closest_on_rim(const Mesh& surface, const std::vector<int>& rim,
@@ -58,12 +79,14 @@ Positions places_on_surface(const Mesh& surface, const Side& side, const std::ve
   if (!is_coarser) return places;
   const double around = kAround * bounding_diagonal(surface.positions);
   const std::vector<int> rim = longest_boundary(surface);
+  const OneRings rings = one_rings({static_cast<int>(surface.positions.rows()), surface.triangles});
   const std::vector<SurfacePoint> closest = closest_points(surface, places);
   for (std::size_t i = 0; i < vertices.size(); ++i) {
     auto place = places.row(static_cast<Eigen::Index>(i));
     const Eigen::RowVector3d start = place;
     if (kinds[i] == PairKind::Tip) {
-      place = outermost(surface, start, pointing(side, side.from_landmark[i], vertices[i]), around);
+      place = outermost(surface, rings, nearest_corner(surface, closest[i]), start,
+                        pointing(side, side.from_landmark[i], vertices[i]), around);
     } else if (kinds[i] == PairKind::Rim && !rim.empty()) {
       place = closest_on_rim(surface, rim, start);
     } else {

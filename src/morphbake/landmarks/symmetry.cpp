@@ -13,7 +13,9 @@ constexpr int kSamples = 500;
 constexpr double kExact = 0.006;   // mean distance to the mirror image, of the diagonal
 constexpr double kNoise = 0.001;   // of the diagonal: what samples of a ball differ by
 constexpr double kSameTip = 0.04;  // of the diagonal
-constexpr double kPaired = 0.12;   // mean cost of tips that pair up in a crooked pose
+constexpr double kBranch = 0.35;   // in `reach`: how near a finger is to the tip of the hand
+constexpr double kBranchProminence = 0.25;  // of that tip
+constexpr double kPaired = 0.12;            // mean cost of tips that pair up in a crooked pose
 
 /// Mean distance between a surface and its image across a plane.
 double mirror_distance(const ShapeSketch& shape, const Symmetry& plane) {
@@ -127,6 +129,25 @@ Symmetry find_symmetry(const ShapeSketch& shape) {
   best = crooked_symmetry(shape, frames);
   if (!best.found) best.mirrored.assign(shape.tips.size(), -1);
   return best;
+}
+
+void drop_branches(ShapeSketch& shape) {
+  const Symmetry symmetry = find_symmetry(shape);
+  const ShapeSketch all = shape;
+  shape.tips.clear();
+  shape.from_tip.clear();
+  for (std::size_t i = 0; i < all.tips.size(); ++i) {
+    const Tip& tip = all.tips[i];
+    bool is_branch = false;
+    for (std::size_t j = 0; j < i; ++j) {
+      is_branch = is_branch || (symmetry.mirrored[i] != static_cast<int>(j) &&
+                                all.from_tip[j](tip.vertex) < kBranch &&
+                                tip.prominence < kBranchProminence * all.tips[j].prominence);
+    }
+    if (is_branch) continue;
+    shape.tips.push_back(tip);
+    shape.from_tip.push_back(all.from_tip[i]);
+  }
 }
 
 void respect_symmetry(const Symmetry& a, const Symmetry& b, std::vector<int>& partner) {

@@ -28,6 +28,10 @@ struct Symmetry {
 /// no such plane; there tips pair up when their distances over the surface do.
 Symmetry find_symmetry(const ShapeSketch& shape);
 
+/// Drops tips that are small and close to a larger one, but for its mirror image: of the fingers of
+/// a hand, one stays. Which finger is which cannot be told from distances.
+void drop_branches(ShapeSketch& shape);
+
 /// Makes partners agree with both shapes' sides: those of a pair are a pair, or nobody's.
 void respect_symmetry(const Symmetry& a, const Symmetry& b, std::vector<int>& partner);
 

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "morphbake/sources/source_surface.h"
+#include "shapes/shapes.h"
 
 namespace morphbake {
 namespace {
@@ -54,6 +55,24 @@ TEST(FindSymmetry, PairsTheTipsOfACow) {
 TEST(FindSymmetry, ACrookedPoseHasPairsStill) {
   const Symmetry symmetry = find_symmetry(sketch_of("bar_bent_twisted"));
   EXPECT_FALSE(symmetry.is_exact);
+}
+
+TEST(DropBranches, OfAHandOneFingerStays) {
+  ShapeSketch shape;
+  shape.mesh = test::sphere(12, 16);
+  const Eigen::Index count = shape.mesh.positions.rows();
+  shape.tips = {{.vertex = 0, .prominence = 1},
+                {.vertex = 40, .prominence = 0.1},
+                {.vertex = 75, .prominence = 0.1},
+                {.vertex = 41, .prominence = 0.05}};
+  shape.from_tip.assign(4, Eigen::VectorXd::Constant(count, 0.6));
+  shape.from_tip[0](40) = 0.2;  // a finger, small and near; the others are too far or no smaller
+  shape.from_tip[1](41) = 0.2;
+  drop_branches(shape);
+  ASSERT_EQ(shape.tips.size(), 3U);
+  ASSERT_EQ(shape.from_tip.size(), 3U);
+  EXPECT_EQ(shape.tips[1].vertex, 75);
+  EXPECT_EQ(shape.tips[2].vertex, 41);
 }
 
 }  // namespace
