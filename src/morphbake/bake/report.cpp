@@ -82,6 +82,7 @@ Json to_json(const SourceQuality& quality) {
                {"self_intersections", quality.self_intersections},
                {"source_self_intersections", quality.source_self_intersections},
                {"smallest_angle", quality.smallest_angle},
+               {"longest_edge", quality.longest_edge},
                {"landmark_error", quality.landmark_error}};
   if (quality.sphere) {
     json["sphere"] = {{"flipped_triangles", quality.sphere->flipped_triangles},

@@ -77,6 +77,17 @@ std::optional<SphereQuality> sphere_quality(const SharedTriangulation& triangula
                        solid_angle(sphere, triangles) / (is_disk ? 2 * kPi : 4 * kPi)};
 }
 
+double longest_edge(const Mesh& mesh) {
+  double longest = 0;
+  for (Eigen::Index f = 0; f < mesh.triangles.rows(); ++f) {
+    for (int k = 0; k < 3; ++k) {
+      const int a = mesh.triangles(f, k), b = mesh.triangles(f, (k + 1) % 3);
+      longest = std::max(longest, (mesh.positions.row(a) - mesh.positions.row(b)).norm());
+    }
+  }
+  return longest;
+}
+
 SourceQuality measure_source(const std::vector<SourceSurface>& surfaces,
                              const SharedTriangulation& triangulation, std::size_t s) {
   const SourceSurface& source = surfaces[s];
@@ -91,6 +102,7 @@ SourceQuality measure_source(const std::vector<SourceSurface>& surfaces,
   quality.self_intersections = count_self_intersections(remesh);
   quality.source_self_intersections = count_self_intersections(source.mesh);
   quality.smallest_angle = smallest_angle(remesh);
+  quality.longest_edge = longest_edge(remesh) / diagonal;
   quality.landmark_error =
       landmark_error(source, surfaces[0].landmark_names, remesh, triangulation.landmarks) /
       diagonal;

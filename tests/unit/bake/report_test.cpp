@@ -91,11 +91,30 @@ TEST(Report, OfASharedConnectivityTellsItsSizeOnly) {
 
 TEST(ConnectivityWarnings, NameWhatIsWorthALook) {
   const std::vector<Problem> warnings =
-      connectivity_warnings(Recipe{}, *full_connectivity().quality);
+      connectivity_warnings(Recipe{}, 100, *full_connectivity().quality);
   std::vector<std::string> codes;
   for (const Problem& warning : warnings) codes.push_back(warning.code);
   EXPECT_EQ(codes,
             (std::vector<std::string>{"connectivity.folds", "connectivity.high-distortion"}));
+}
+
+TEST(ConnectivityWarnings, TellWhatTheLimitOfVerticesLeftUndone) {
+  Recipe recipe;
+  recipe.connectivity.max_vertices = 100;
+  TriangulationQuality quality;
+  quality.sources.emplace_back().source = "cow";
+  quality.sources[0].source_to_remesh = 0.01;
+  quality.sources[0].longest_edge = 0.3;
+  std::vector<Problem> warnings = connectivity_warnings(recipe, 100, quality);
+  ASSERT_EQ(warnings.size(), 2U);
+  EXPECT_EQ(warnings[0].code, "connectivity.error-not-reached");
+  EXPECT_EQ(warnings[0].message,
+            "\"cow\" is met within 0.01 of its diagonal, not within max_error (0.002); refinement "
+            "ended at max_vertices (100)");
+  EXPECT_EQ(warnings[1].code, "connectivity.edge-length-not-reached");
+  warnings = connectivity_warnings(recipe, 99, quality);
+  ASSERT_EQ(warnings.size(), 1U);
+  EXPECT_EQ(warnings[0].message.find("max_vertices"), std::string::npos);
 }
 
 }  // namespace
