@@ -11,7 +11,7 @@ namespace {
 
 ConnectivityReport full_connectivity() {
   TriangulationQuality quality;
-  quality.sources.push_back({"a", 0.001, 0.002, 1, 2, 3, 20, 0, SphereQuality{}});
+  quality.sources.push_back({"a", 0.001, 0.002, 1, 2, 3, 20, 0.05, 0, SphereQuality{}});
   quality.maps.push_back({"b", 1.2, 1.1, 1.5, 2, 7});
   quality.regions.push_back({"b", 4, 0.01, {1, 2, 3}, "tip", 0.1});
   return {ConnectivityMode::Remesh, 8, 12, {{"sphere", 0.5}}, quality};
