@@ -51,7 +51,10 @@ TriangulationQuality measured(const Recipe& recipe, const RemeshedSources& remes
                               const Observer& observer) {
   TriangulationQuality quality =
       measure_triangulation(remeshed.surfaces, remeshed.triangulation, observer);
-  for (const Problem& warning : connectivity_warnings(recipe, quality)) report(observer, warning);
+  const int vertices = remeshed.triangulation.connectivity.vertex_count;
+  for (const Problem& warning : connectivity_warnings(recipe, vertices, quality)) {
+    report(observer, warning);
+  }
   return quality;
 }
 

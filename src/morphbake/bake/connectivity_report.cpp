@@ -8,6 +8,8 @@
 namespace morphbake {
 namespace {
 
+constexpr double kClearlyLonger = 1.5;  // than asked for; relaxing edges lengthens some
+
 Problem warning(const Recipe& recipe, const char* code, std::string message, std::string hint) {
   return {Severity::Warning,
           code,
@@ -16,17 +18,34 @@ Problem warning(const Recipe& recipe, const char* code, std::string message, std
           std::move(hint)};
 }
 
-void add_source_warnings(const Recipe& recipe, const SourceQuality& quality,
-                         std::vector<Problem>& warnings) {
-  const double bound = recipe.connectivity.max_error;
+/// What was not reached, and whether max_vertices was why.
+void add_size_warnings(const Recipe& recipe, bool ended_by_limit, const SourceQuality& quality,
+                       std::vector<Problem>& warnings) {
+  const ConnectivityRequest& request = recipe.connectivity;
+  const std::string ended =
+      ended_by_limit ? fmt::format("; refinement ended at max_vertices ({})", request.max_vertices)
+                     : "";
   const double reached = std::max(quality.source_to_remesh, quality.remesh_to_source);
-  if (reached > bound) {
+  if (reached > request.max_error) {
     warnings.push_back(warning(
         recipe, "connectivity.error-not-reached",
-        fmt::format("\"{}\" is met within {:.2g} of its diagonal, not within max_error ({:.2g})",
-                    quality.source, reached, bound),
-        "allow more max_vertices, or a larger max_error"));
+        fmt::format("\"{}\" is met within {:.2g} of its diagonal, not within max_error ({:.2g}){}",
+                    quality.source, reached, request.max_error, ended),
+        ended_by_limit ? "allow more max_vertices, or a larger max_error"
+                       : "a smaller target_edge_length helps, or a larger max_error"));
   }
+  if (ended_by_limit && quality.longest_edge > kClearlyLonger * request.target_edge_length) {
+    warnings.push_back(warning(
+        recipe, "connectivity.edge-length-not-reached",
+        fmt::format("edges of \"{}\" are up to {:.2g} of its diagonal long, longer than "
+                    "target_edge_length ({:.2g}){}",
+                    quality.source, quality.longest_edge, request.target_edge_length, ended),
+        "allow more max_vertices, or a larger target_edge_length"));
+  }
+}
+
+void add_source_warnings(const Recipe& recipe, const SourceQuality& quality,
+                         std::vector<Problem>& warnings) {
   if (quality.folds > 0) {
     warnings.push_back(
         warning(recipe, "connectivity.folds",
@@ -56,10 +75,11 @@ std::string advice_for(const DistortionRegion& region) {
       place, region.landmark_distance, region.nearest_landmark);
 }
 
-std::vector<Problem> connectivity_warnings(const Recipe& recipe,
+std::vector<Problem> connectivity_warnings(const Recipe& recipe, int vertices,
                                            const TriangulationQuality& quality) {
   std::vector<Problem> warnings;
   for (const SourceQuality& source : quality.sources) {
+    add_size_warnings(recipe, vertices >= recipe.connectivity.max_vertices, source, warnings);
     add_source_warnings(recipe, source, warnings);
   }
   for (const MapQuality& map : quality.maps) {

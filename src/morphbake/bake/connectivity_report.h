@@ -21,7 +21,9 @@ struct ConnectivityReport {
 };
 
 /// What is worth a look in a new connectivity, at most one warning of each kind a source.
-std::vector<Problem> connectivity_warnings(const Recipe& recipe,
+///
+/// @param vertices  how many it has: with max_vertices, refinement ended there
+std::vector<Problem> connectivity_warnings(const Recipe& recipe, int vertices,
                                            const TriangulationQuality& quality);
 
 /// What helps a region of high distortion: "add a landmark at the tip ...".

@@ -48,6 +48,12 @@ void check_request(const Recipe& recipe, const std::vector<fs::path>& files) {
   if (!problems.empty()) throw BakeError(std::move(problems));
 }
 
+/// Fails now rather than after the work when the files cannot be written; leaves nothing.
+void check_writable(const std::vector<fs::path>& files) {
+  PendingOutputs never_committed;
+  for (const fs::path& file : files) never_committed.stage(file, "");
+}
+
 }  // namespace
 
 std::vector<fs::path> remeshed_files(const Recipe& recipe, const fs::path& folder,
@@ -65,6 +71,7 @@ RemeshReport remesh(const Recipe& recipe, const BakeOptions& options, const fs::
   result.recipe = recipe.name;
   result.files = remeshed_files(recipe, folder, sheet);
   check_request(recipe, result.files);
+  check_writable(result.files);
   const Observer observer = recording(caller, result.problems);
   StageClock clock(observer);
   clock.start("sources");

@@ -83,6 +83,7 @@ Json to_json(const SourceQuality& quality) {
                {"source_self_intersections", quality.source_self_intersections},
                {"new_self_intersections", quality.new_self_intersections},
                {"smallest_angle", quality.smallest_angle},
+               {"longest_edge", quality.longest_edge},
                {"landmark_error", quality.landmark_error}};
   if (quality.sphere) {
     json["sphere"] = {{"flipped_triangles", quality.sphere->flipped_triangles},

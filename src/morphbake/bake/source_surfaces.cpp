@@ -1,11 +1,14 @@
 #include "morphbake/bake/source_surfaces.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <array>
 #include <cassert>
 #include <utility>
 
 #include "morphbake/connectivity/morphable_mesh.h"
+#include "morphbake/correspondence/source_topology.h"
 #include "morphbake/sources/common_landmarks.h"
 #include "morphbake/sources/corner_surface.h"
 #include "morphbake/sources/hard_edges.h"
@@ -44,6 +47,18 @@ CornerSurface corner_surface(const MorphableMesh& shared, const SourceMesh& firs
   return corners;
 }
 
+/// Every landmark is a vertex.
+void check_room(const Recipe& recipe, std::size_t landmarks) {
+  const int limit = recipe.connectivity.max_vertices;
+  if (landmarks <= static_cast<std::size_t>(limit)) return;
+  throw BakeError(
+      Problem{Severity::Error,
+              "connectivity.too-many-vertices",
+              {recipe.file.string(), "/connectivity/max_vertices", 0, 0},
+              fmt::format("{} landmarks need a vertex each; max_vertices is {}", landmarks, limit),
+              "allow more vertices, many times the number of landmarks"});
+}
+
 }  // namespace
 
 std::vector<SourceSurface> own_surfaces(const Recipe& recipe,
@@ -52,14 +67,16 @@ std::vector<SourceSurface> own_surfaces(const Recipe& recipe,
   std::vector<SourceSurface> surfaces;
   std::vector<Problem> problems;
   for (std::size_t s = 0; s < sources.size(); ++s) {
-    try {
-      surfaces.push_back(source_surface(sources[s], recipe.sources[s], observer));
-    } catch (const BakeError& error) {
-      problems.insert(problems.end(), error.problems().begin(), error.problems().end());
-    }
+    surfaces.push_back(source_surface(sources[s], recipe.sources[s], observer, problems));
   }
+  for (Problem& problem : common_landmark_problems(surfaces)) {
+    if (problem.severity == Severity::Error) problems.push_back(std::move(problem));
+  }
+  for (Problem& problem : topology_problems(surfaces)) problems.push_back(std::move(problem));
   if (!problems.empty()) throw BakeError(std::move(problems));
-  return with_common_landmarks(std::move(surfaces), observer);
+  surfaces = with_common_landmarks(std::move(surfaces), observer);
+  check_room(recipe, surfaces.front().landmarks.size());
+  return surfaces;
 }
 
 std::vector<SourceSurface> shared_surfaces(const Recipe& recipe,

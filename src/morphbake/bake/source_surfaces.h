@@ -11,7 +11,9 @@ namespace morphbake {
 
 /// The surfaces of sources of any triangles, with the landmarks that all have.
 ///
-/// @throws BakeError as source_surface and with_common_landmarks, with the problems of all sources
+/// @throws BakeError as source_surface, common_landmark_problems and topology_problems, all that is
+///         wrong with all sources at once; "connectivity.too-many-vertices" when the landmarks
+///         alone are more than max_vertices
 std::vector<SourceSurface> own_surfaces(const Recipe& recipe,
                                         const std::vector<SourceMesh>& sources,
                                         const Observer& observer);

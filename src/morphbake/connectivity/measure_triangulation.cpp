@@ -97,6 +97,17 @@ std::optional<SphereQuality> sphere_quality(const SharedTriangulation& triangula
   return SphereQuality{check.turned, check.degree};
 }
 
+double longest_edge(const Mesh& mesh) {
+  double longest = 0;
+  for (Eigen::Index f = 0; f < mesh.triangles.rows(); ++f) {
+    for (int k = 0; k < 3; ++k) {
+      const int a = mesh.triangles(f, k), b = mesh.triangles(f, (k + 1) % 3);
+      longest = std::max(longest, (mesh.positions.row(a) - mesh.positions.row(b)).norm());
+    }
+  }
+  return longest;
+}
+
 SourceQuality measure_source(const std::vector<SourceSurface>& surfaces,
                              const SharedTriangulation& triangulation, std::size_t s) {
   const SourceSurface& source = surfaces[s];
@@ -114,6 +125,7 @@ SourceQuality measure_source(const std::vector<SourceSurface>& surfaces,
   quality.new_self_intersections = count_new(pairs, source.mesh, below);
   quality.source_self_intersections = static_cast<int>(self_intersections(source.mesh).size());
   quality.smallest_angle = smallest_angle(remesh);
+  quality.longest_edge = longest_edge(remesh) / diagonal;
   quality.landmark_error =
       landmark_error(source, surfaces[0].landmark_names, remesh, triangulation.landmarks) /
       diagonal;

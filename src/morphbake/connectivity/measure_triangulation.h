@@ -27,6 +27,7 @@ struct SourceQuality {
   int source_self_intersections = 0;  ///< of the source itself
   int new_self_intersections = 0;     ///< pairs away from the source's own
   double smallest_angle = 0;          ///< degrees
+  double longest_edge = 0;            ///< fraction of the diagonal
   double landmark_error = 0;          ///< of the worst landmark, fraction of the diagonal
   std::optional<SphereQuality> sphere;
 };

@@ -1,14 +1,11 @@
-#include <fmt/core.h>
-
 #include <Eigen/LU>
 #include <algorithm>
-#include <array>
 #include <map>
 #include <utility>
 
 #include "morphbake/correspondence/capped_surface.h"
+#include "morphbake/correspondence/source_topology.h"
 #include "morphbake/diagnostics/problem.h"
-#include "morphbake/mesh/adjacency.h"
 #include "morphbake/mesh/closed_mesh.h"
 
 namespace morphbake {
@@ -17,70 +14,6 @@ namespace {
 /// A landmark this close to a vertex or an edge, in barycentric coordinates, lies on it: what would
 /// be split off is a needle that double precision cannot lay on the sphere.
 constexpr double kOnEdge = 1e-6;
-
-[[noreturn]] void fail(const SourceSurface& source, const std::string& code,
-                       const std::string& message, const std::string& hint) {
-  throw BakeError(Problem{Severity::Error, code, {source.file, "", 0, 0}, message, hint});
-}
-
-/// The next boundary vertex of each boundary vertex, against the triangles' direction.
-std::map<int, int> boundary_steps(const Triangles& triangles) {
-  std::vector<std::array<int, 3>> edges;  // smaller end, larger end, whether it runs upwards
-  for (Eigen::Index f = 0; f < triangles.rows(); ++f) {
-    for (int k = 0; k < 3; ++k) {
-      const int a = triangles(f, k), b = triangles(f, (k + 1) % 3);
-      edges.push_back({std::min(a, b), std::max(a, b), a < b});
-    }
-  }
-  std::sort(edges.begin(), edges.end());
-  std::map<int, int> next;
-  for (std::size_t e = 0; e < edges.size(); ++e) {
-    const auto same = [&](std::size_t other) {
-      return other < edges.size() && edges[other][0] == edges[e][0] &&
-             edges[other][1] == edges[e][1];
-    };
-    if (same(e + 1) || (e > 0 && same(e - 1))) continue;
-    const auto [low, high, upwards] = edges[e];
-    next[upwards ? high : low] = upwards ? low : high;
-  }
-  return next;
-}
-
-int count_loops(std::map<int, int> next) {
-  int loops = 0;
-  while (!next.empty()) {
-    ++loops;
-    for (int v = next.begin()->first; next.count(v);) v = next.extract(v).mapped();
-  }
-  return loops;
-}
-
-void check_topology(const SourceSurface& source, const std::map<int, int>& boundary) {
-  const auto vertices = static_cast<int>(source.mesh.positions.rows());
-  const auto triangles = static_cast<int>(source.mesh.triangles.rows());
-  const int pieces = connected_components(one_rings({vertices, source.mesh.triangles})).count;
-  if (pieces > 1) {
-    fail(source, "correspondence.pieces",
-         fmt::format("\"{}\" consists of {} pieces; a remesh needs one", source.name, pieces),
-         "join or delete the pieces; in Blender: Mesh > Separate > By Loose Parts shows them");
-  }
-  const int loops = count_loops(boundary);
-  if (loops > 1) {
-    fail(
-        source, "correspondence.holes",
-        fmt::format("\"{}\" has {} holes; a remesh takes closed surfaces, or disks with one border",
-                    source.name, loops),
-        "fill the holes that are not meant; in Blender: Mesh > Clean Up > Fill Holes");
-  }
-  const int edges = (3 * triangles + static_cast<int>(boundary.size())) / 2;
-  const int genus = (2 - loops - (vertices - edges + triangles)) / 2;
-  if (genus > 0) {
-    fail(source, "correspondence.handles",
-         fmt::format("\"{}\" has {} handle{}, as a cup has; a remesh takes none", source.name,
-                     genus, genus == 1 ? "" : "s"),
-         "close the tunnel, or use sources that share their connectivity");
-  }
-}
 
 /// A surface that is being closed and split.
 class Splitting {
@@ -257,14 +190,9 @@ CappedSurface Splitting::finish() && {
 }  // namespace
 
 CappedSurface cap_surface(const SourceSurface& source) {
+  std::vector<Problem> problems = topology_problems(source);
+  if (!problems.empty()) throw BakeError(std::move(problems));
   const std::map<int, int> boundary = boundary_steps(source.mesh.triangles);
-  check_topology(source, boundary);
-  if (source.mesh.positions.rows() < 4) {
-    fail(source, "correspondence.too-few-vertices",
-         fmt::format("\"{}\" has {} vertices; a remesh needs 4 or more", source.name,
-                     source.mesh.positions.rows()),
-         "use a mesh of some detail");
-  }
   const auto vertices = static_cast<int>(source.mesh.positions.rows());
   const int apex = boundary.empty() ? -1 : vertices;
   Triangles capped(source.mesh.triangles.rows() + static_cast<Eigen::Index>(boundary.size()), 3);

@@ -6,20 +6,28 @@
 #include <vector>
 
 #include "morphbake/correspondence/sphere_layout.h"
+#include "morphbake/diagnostics/cancellation.h"
 
 namespace morphbake {
 namespace {
 
 using Eigen::Vector3d;
 
+/// A vertex of more neighbours is the end of collapses, not their start, until too little else is
+/// left: rating them anew after each of its neighbours' collapses would cost the square of their
+/// number.
+constexpr int kCrowded = 64;
+constexpr int kStride = 256;  // collapses tried between two looks whether to stop
+
 std::size_t index(int i) { return static_cast<std::size_t>(i); }
 
 /// Costs and rules of collapses; keeps a queue of them.
 class Coarsening {
  public:
-  Coarsening(SphereLayout& layout, const CollapseFilter& allowed)
+  Coarsening(SphereLayout& layout, const CollapseFilter& allowed, const Observer& observer)
       : layout_(layout),
         allowed_(allowed),
+        observer_(observer),
         quadrics_(layout.positions.size(), Eigen::Matrix4d::Zero()),
         is_landmark_(layout.positions.size(), 0),
         stamps_(layout.positions.size(), 0) {
@@ -28,17 +36,18 @@ class Coarsening {
     for (int f = 0; f < mesh.triangle_slots(); ++f) {
       if (mesh.has_triangle(f)) add_plane(f);
     }
-    push_all();
+    push_all(kCrowded);
   }
 
   void run(int count) {
     ClosedMesh& mesh = layout_.mesh;
     bool retried = false;
-    while (mesh.vertex_count() > count) {
+    for (int tried = 0; mesh.vertex_count() > count; ++tried) {
+      if (tried % kStride == 0) stop_if_cancelled(observer_);
       if (queue_.empty()) {
         if (retried) return;  // nothing was possible since the queue was filled
         retried = true;
-        push_all();
+        push_all(mesh.vertex_count());
         continue;
       }
       const auto [cost, u, v, stamp] = queue_.top();
@@ -81,9 +90,11 @@ class Coarsening {
     });
   }
 
-  void push_all() {
-    for (int v = 0; v < layout_.mesh.vertex_slots(); ++v) {
-      if (layout_.mesh.has_vertex(v) && v != layout_.surface->apex) push_around(v);
+  void push_all(int most_neighbours) {
+    const ClosedMesh& mesh = layout_.mesh;
+    for (int v = 0; v < mesh.vertex_slots(); ++v) {
+      if (!mesh.has_vertex(v) || v == layout_.surface->apex) continue;
+      if (!mesh.has_valence_above(v, most_neighbours)) push_around(v);
     }
   }
 
@@ -150,12 +161,13 @@ class Coarsening {
     for (const int w : changed) {
       if (w == layout_.surface->apex) continue;
       ++stamps_[index(w)];
-      push_around(w);
+      if (!mesh.has_valence_above(w, kCrowded)) push_around(w);
     }
   }
 
   SphereLayout& layout_;
   const CollapseFilter& allowed_;
+  const Observer& observer_;
   std::vector<Eigen::Matrix4d> quadrics_;
   std::vector<char> is_landmark_;
   std::vector<int> stamps_;
@@ -164,8 +176,9 @@ class Coarsening {
 
 }  // namespace
 
-void coarsen(SphereLayout& layout, int count, const CollapseFilter& allowed) {
-  Coarsening(layout, allowed).run(count);
+void coarsen(SphereLayout& layout, int count, const CollapseFilter& allowed,
+             const Observer& observer) {
+  Coarsening(layout, allowed, observer).run(count);
 }
 
 }  // namespace morphbake

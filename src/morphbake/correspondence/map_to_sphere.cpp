@@ -2,12 +2,15 @@
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "morphbake/correspondence/capped_surface.h"
 #include "morphbake/correspondence/check_map.h"
 #include "morphbake/correspondence/pin_landmarks.h"
+#include "morphbake/correspondence/source_topology.h"
 #include "morphbake/correspondence/sphere_layout.h"
 #include "morphbake/correspondence/spherical_map.h"
 #include "morphbake/diagnostics/problem.h"
@@ -20,38 +23,19 @@ namespace {
 constexpr int kPinLevels[] = {250, 600, 1500};
 constexpr int kSteps = 4;  // of the progress bar
 
+Problem problem_of(const SourceSurface& source, const std::string& code, std::string message,
+                   std::string hint) {
+  return {Severity::Error, code, {source.file, "", 0, 0}, std::move(message), std::move(hint)};
+}
+
 [[noreturn]] void fail(const SourceSurface& source, const std::string& code,
                        const std::string& message, const std::string& hint) {
-  throw BakeError(Problem{Severity::Error, code, {source.file, "", 0, 0}, message, hint});
+  throw BakeError(problem_of(source, code, message, hint));
 }
 
-std::vector<CappedSurface> cap_all(const std::vector<SourceSurface>& sources) {
-  std::vector<CappedSurface> capped;
-  std::vector<Problem> problems;
-  for (const SourceSurface& source : sources) {
-    try {
-      capped.push_back(cap_surface(source));
-    } catch (const BakeError& error) {
-      problems.insert(problems.end(), error.problems().begin(), error.problems().end());
-    }
-  }
-  if (!problems.empty()) throw BakeError(problems);
-  return capped;
-}
-
-/// Sources must be of one kind, and a landmark on the border of one lies on the border of all.
-void check_alike(const std::vector<SourceSurface>& sources,
-                 const std::vector<CappedSurface>& capped) {
-  for (std::size_t s = 1; s < sources.size(); ++s) {
-    if ((capped[s].apex < 0) == (capped[0].apex < 0)) continue;
-    const auto kind = [&](std::size_t i) {
-      return capped[i].apex < 0 ? "closed" : "open (it has a border)";
-    };
-    fail(sources[s], "correspondence.different-topology",
-         fmt::format("\"{}\" is {} but \"{}\" is {}", sources[s].name, kind(s), sources[0].name,
-                     kind(0)),
-         "all sources of a remesh are closed, or all are disks: cut or fill one of them");
-  }
+/// A landmark on the border of one source lies on the border of all.
+void add_off_border(const std::vector<SourceSurface>& sources,
+                    const std::vector<CappedSurface>& capped, std::vector<Problem>& problems) {
   for (std::size_t l = 0; l < sources[0].landmarks.size(); ++l) {
     const auto is_on_border = [&](std::size_t s) {
       return capped[s].on_boundary[static_cast<std::size_t>(capped[s].landmarks[l])] != 0;
@@ -59,25 +43,67 @@ void check_alike(const std::vector<SourceSurface>& sources,
     for (std::size_t s = 1; s < sources.size(); ++s) {
       if (is_on_border(s) == is_on_border(0)) continue;
       const std::size_t on = is_on_border(s) ? s : 0, off = is_on_border(s) ? 0 : s;
-      fail(sources[off], "correspondence.landmark-off-border",
-           fmt::format("landmark \"{}\" lies on the border of \"{}\" but inside of \"{}\"",
-                       sources[0].landmark_names[l], sources[on].name, sources[off].name),
-           "move it onto the border of both, or inside of both");
+      problems.push_back(problem_of(
+          sources[off], "correspondence.landmark-off-border",
+          fmt::format("landmark \"{}\" lies on the border of \"{}\" but inside of \"{}\"",
+                      sources[0].landmark_names[l], sources[on].name, sources[off].name),
+          "move it onto the border of both, or inside of both"));
     }
   }
 }
 
 /// Different landmarks must be different vertices.
-void check_distinct(const SourceSurface& source, const CappedSurface& capped) {
+void add_not_distinct(const SourceSurface& source, const CappedSurface& capped,
+                      std::vector<Problem>& problems) {
   for (std::size_t l = 0; l < capped.landmarks.size(); ++l) {
     for (std::size_t k = 0; k < l; ++k) {
       if (capped.landmarks[k] != capped.landmarks[l]) continue;
-      fail(source, "correspondence.same-landmark",
-           fmt::format("landmarks \"{}\" and \"{}\" of \"{}\" are one point",
-                       source.landmark_names[k], source.landmark_names[l], source.name),
-           "move or remove one of them");
+      problems.push_back(
+          problem_of(source, "correspondence.same-landmark",
+                     fmt::format("landmarks \"{}\" and \"{}\" of \"{}\" are one point",
+                                 source.landmark_names[k], source.landmark_names[l], source.name),
+                     "move or remove one of them"));
     }
   }
+}
+
+/// The sources closed, with all that is wrong about them told at once.
+std::vector<CappedSurface> cap_all(const std::vector<SourceSurface>& sources) {
+  std::vector<Problem> problems = topology_problems(sources);
+  if (!problems.empty()) throw BakeError(std::move(problems));
+  std::vector<CappedSurface> capped;
+  for (const SourceSurface& source : sources) capped.push_back(cap_surface(source));
+  add_off_border(sources, capped, problems);
+  for (std::size_t s = 0; s < sources.size(); ++s) {
+    add_not_distinct(sources[s], capped[s], problems);
+  }
+  if (!problems.empty()) throw BakeError(std::move(problems));
+  return capped;
+}
+
+/// Six times the volume within, negative when triangles face inwards; of a disk it means nothing.
+double volume_of(const Mesh& mesh) {
+  const Eigen::RowVector3d centre = mesh.positions.colwise().mean();
+  double sum = 0;
+  for (Eigen::Index f = 0; f < mesh.triangles.rows(); ++f) {
+    Eigen::Matrix3d corners;
+    for (int k = 0; k < 3; ++k) {
+      corners.row(k) = mesh.positions.row(mesh.triangles(f, k)) - centre;
+    }
+    sum += corners.determinant();
+  }
+  return sum;
+}
+
+/// What to do about a mirror image. Closed surfaces of which one is inside out seem to be some.
+std::string mirrored_advice(const SourceSurface& first, const SourceSurface& other,
+                            bool is_closed) {
+  const double volumes[] = {volume_of(first.mesh), volume_of(other.mesh)};
+  if (!is_closed || (volumes[0] < 0) == (volumes[1] < 0)) {
+    return "swap its left and right landmarks, or mirror the mesh";
+  }
+  return fmt::format("\"{}\" is inside out; in Blender: Mesh > Normals > Recalculate Outside",
+                     volumes[0] < 0 ? first.name : other.name);
 }
 
 /// Landmarks that fit far better after a reflection belong to a mirror image.
@@ -92,7 +118,7 @@ void check_not_mirrored(const std::vector<SourceSurface>& sources,
          fmt::format("\"{}\" is a mirror image of \"{}\": its landmarks fit to {:.0f} degrees as "
                      "they are and to {:.0f} degrees mirrored",
                      sources[s].name, sources[0].name, straight * 57.29578, mirrored * 57.29578),
-         "swap its left and right landmarks, or mirror the mesh");
+         mirrored_advice(sources[0], sources[s], layouts[s].surface->apex < 0));
   }
 }
 
@@ -119,8 +145,9 @@ std::vector<SphereLayout> lay_out(const std::vector<SourceSurface>& sources,
                                   const Observer& observer) {
   std::vector<SphereLayout> coarse;
   for (const CappedSurface& surface : capped) coarse.push_back(make_layout(surface));
-  for_each_layout(
-      coarse, [](SphereLayout& layout) { coarsen(layout, layout.surface->apex < 0 ? 4 : 5, {}); });
+  for_each_layout(coarse, [&](SphereLayout& layout) {
+    coarsen(layout, layout.surface->apex < 0 ? 4 : 5, {}, observer);
+  });
   check_coarse(sources, coarse);
   advance(observer, {"correspondence", 1, kSteps});
   for_each_layout(coarse, lie_down);
@@ -130,13 +157,13 @@ std::vector<SphereLayout> lay_out(const std::vector<SourceSurface>& sources,
   for (const int level : kPinLevels) {
     const int count = std::max(level, 10 * landmarks);
     for_each_layout(coarse, [&](SphereLayout& layout) {
-      refine(layout, count);
-      relax(layout, 60);
+      refine(layout, count, observer);
+      relax(layout, 60, observer);
     });
     if (!is_mirror_checked) check_not_mirrored(sources, coarse);
     is_mirror_checked = true;
     std::vector<SphereLayout> pinned = coarse;
-    unpinned = pin_landmarks(pinned);
+    unpinned = pin_landmarks(pinned, observer);
     advance(observer, {"correspondence", 2, kSteps});
     if (unpinned.empty()) return pinned;
   }
@@ -207,12 +234,10 @@ std::vector<SphericalMap> map_to_sphere(const std::vector<SourceSurface>& source
                                         const Observer& observer) {
   advance(observer, {"correspondence", 0, kSteps});
   const std::vector<CappedSurface> capped = cap_all(sources);
-  check_alike(sources, capped);
-  for (std::size_t s = 0; s < sources.size(); ++s) check_distinct(sources[s], capped[s]);
   std::vector<SphereLayout> layouts = lay_out(sources, capped, observer);
-  for_each_layout(layouts, [](SphereLayout& layout) {
-    refine(layout, layout.mesh.vertex_slots());
-    relax(layout, 10);
+  for_each_layout(layouts, [&](SphereLayout& layout) {
+    refine(layout, layout.mesh.vertex_slots(), observer);
+    relax(layout, 10, observer);
   });
   advance(observer, {"correspondence", 3, kSteps});
   std::vector<SphericalMap> maps;

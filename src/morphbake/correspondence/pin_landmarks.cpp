@@ -47,7 +47,8 @@ Matrix3d free_rotation(const std::vector<Vector3d>& from, const std::vector<Vect
 /// Draws the landmarks of one layout to their targets.
 ///
 /// @return  those that did not arrive
-std::vector<int> draw_to_targets(SphereLayout& layout, const std::vector<Vector3d>& targets) {
+std::vector<int> draw_to_targets(SphereLayout& layout, const std::vector<Vector3d>& targets,
+                                 const Observer& observer) {
   const std::vector<int>& landmarks = layout.surface->landmarks;
   layout.targets.assign(layout.sphere.size(), Vector3d::Zero());
   for (std::size_t l = 0; l < landmarks.size(); ++l) {
@@ -57,7 +58,7 @@ std::vector<int> draw_to_targets(SphereLayout& layout, const std::vector<Vector3
   double pull = 1;
   for (int sweep = 0; sweep < kSweeps && missing > 0; ++sweep) {
     layout.pull = pull;
-    relax(layout, 1);
+    relax(layout, 1, observer);
     pull = std::min(1e5, 1.1 * pull);
     layout.pull = 0;  // jumps are judged by shape alone
     for (std::size_t l = 0; l < landmarks.size(); ++l) {
@@ -101,7 +102,7 @@ RotationFit fit_rotation(const SphereLayout& layout, const SphereLayout& referen
   return fit;
 }
 
-std::vector<int> pin_landmarks(std::vector<SphereLayout>& layouts) {
+std::vector<int> pin_landmarks(std::vector<SphereLayout>& layouts, const Observer& observer) {
   for (std::size_t s = 1; s < layouts.size(); ++s) {
     const Matrix3d rotation = fit_rotation(layouts[s], layouts[0], false).rotation;
     const bool keeps_equator = layouts[s].surface->apex >= 0;
@@ -119,8 +120,8 @@ std::vector<int> pin_landmarks(std::vector<SphereLayout>& layouts) {
   }
   std::vector<std::vector<int>> unpinned(layouts.size());
   tbb::parallel_for(std::size_t{0}, layouts.size(), [&](std::size_t s) {
-    unpinned[s] = draw_to_targets(layouts[s], targets);
-    relax(layouts[s], 40);
+    unpinned[s] = draw_to_targets(layouts[s], targets, observer);
+    relax(layouts[s], 40, observer);
   });
   std::vector<int> all;
   for (const std::vector<int>& of_one : unpinned)

@@ -23,8 +23,9 @@ RotationFit fit_rotation(const SphereLayout& layout, const SphereLayout& referen
 /// they are pinned exactly.
 ///
 /// @param layouts  of some hundred vertices each
+/// @throws         Cancelled
 /// @return         indices of landmarks that could not be brought there in some layout: they
 ///                 contradict the others
-std::vector<int> pin_landmarks(std::vector<SphereLayout>& layouts);
+std::vector<int> pin_landmarks(std::vector<SphereLayout>& layouts, const Observer& observer = {});
 
 }  // namespace morphbake

@@ -7,6 +7,7 @@
 #include <limits>
 #include <numbers>
 
+#include "morphbake/diagnostics/cancellation.h"
 #include "morphbake/diagnostics/problem.h"
 
 namespace morphbake {
@@ -19,6 +20,8 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr int kCoarse = 500;     // levels below this many vertices are cheap: relaxed longer
 constexpr double kGrowth = 1.4;  // of the number of vertices between two relaxations
 constexpr int kSweeps = 8;
+constexpr int kCrowded = 64;  // neighbours from which a vertex waits for the next relaxation
+constexpr int kStride = 256;  // vertices between two looks whether to stop
 
 std::size_t index(int i) { return static_cast<std::size_t>(i); }
 
@@ -325,7 +328,7 @@ double star_energy(const SphereLayout& layout, int vertex, const Vector3d& place
   return energy_at(layout, star, vertex, place);
 }
 
-void relax(SphereLayout& layout, int sweeps) {
+void relax(SphereLayout& layout, int sweeps, const Observer& observer) {
   set_rest_scale(layout);
   std::vector<int> living;
   for (int v = 0; v < layout.mesh.vertex_slots(); ++v) {
@@ -334,7 +337,10 @@ void relax(SphereLayout& layout, int sweeps) {
   Star star;
   double energy = total_energy(layout);
   for (int sweep = 0; sweep < sweeps; ++sweep) {
-    for (const int v : living) move(layout, v, star);
+    for (std::size_t i = 0; i < living.size(); ++i) {
+      if (i % kStride == 0) stop_if_cancelled(observer);
+      move(layout, living[i], star);
+    }
     std::reverse(living.begin(), living.end());
     const double now = total_energy(layout);
     if (energy - now < 1e-4 * energy) return;
@@ -342,24 +348,28 @@ void relax(SphereLayout& layout, int sweeps) {
   }
 }
 
-void refine(SphereLayout& layout, int count) {
+void refine(SphereLayout& layout, int count, const Observer& observer) {
   set_rest_scale(layout);
   const auto following = [&] { return static_cast<int>(kGrowth * layout.mesh.vertex_count()) + 1; };
   int next_level = following();
   Star star;
   std::vector<int> ring;
   while (layout.mesh.vertex_count() < count && !layout.collapses.empty()) {
+    if (layout.collapses.size() % kStride == 0) stop_if_cancelled(observer);
     const CollapseRecord record = layout.collapses.back();
     layout.collapses.pop_back();
     layout.mesh.undo(record);
     place_vertex(layout, record.removed, record.kept, star);
     ring.clear();
-    layout.mesh.around(record.removed, [&](int h) { ring.push_back(layout.mesh.to(h)); });
+    layout.mesh.around(record.removed, [&](int h) {
+      const int v = layout.mesh.to(h);
+      if (!layout.mesh.has_valence_above(v, kCrowded)) ring.push_back(v);
+    });
     move(layout, record.removed, star);
     for (const int v : ring) move(layout, v, star);
     move(layout, record.removed, star);
     if (layout.mesh.vertex_count() < next_level && layout.mesh.vertex_count() != count) continue;
-    relax(layout, layout.mesh.vertex_count() < kCoarse ? 4 * kSweeps : kSweeps);
+    relax(layout, layout.mesh.vertex_count() < kCoarse ? 4 * kSweeps : kSweeps, observer);
     next_level = following();
   }
 }

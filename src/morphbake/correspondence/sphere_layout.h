@@ -6,6 +6,7 @@
 
 #include "morphbake/correspondence/capped_surface.h"
 #include "morphbake/correspondence/triangle_energy.h"
+#include "morphbake/diagnostics/observer.h"
 #include "morphbake/mesh/closed_mesh.h"
 
 namespace morphbake {
@@ -35,8 +36,11 @@ using CollapseFilter = std::function<bool(const ClosedMesh& mesh, int half_edge)
 /// Collapses edges, those first that change the surface least, down to `count` vertices or until
 /// nothing more can be collapsed. Landmarks go last; the boundary stays a boundary.
 ///
+/// @throws Cancelled
+/// @cost   O(n log n) collapses, each as dear as the valences around it
 /// @see Garland and Heckbert 1997 (quadrics); Hoppe 1996 (record of collapses)
-void coarsen(SphereLayout& layout, int count, const CollapseFilter& allowed);
+void coarsen(SphereLayout& layout, int count, const CollapseFilter& allowed,
+             const Observer& observer = {});
 
 /// Lays the coarsest level down: a regular tetrahedron, or a pyramid over the equator.
 void lie_down(SphereLayout& layout);
@@ -44,11 +48,14 @@ void lie_down(SphereLayout& layout);
 /// Takes collapses back until `count` vertices live; each new vertex goes into the kernel of its
 /// ring, and all are relaxed each time their number grew by 2/5.
 ///
-/// @throws BakeError "correspondence.no-room" when a vertex finds no place (not seen on any mesh)
-void refine(SphereLayout& layout, int count);
+/// @throws BakeError "correspondence.no-room" when a vertex finds no place (not seen on any mesh);
+///         Cancelled
+void refine(SphereLayout& layout, int count, const Observer& observer = {});
 
 /// Moves vertices to less distortion, one by one, none so far that a triangle turns.
-void relax(SphereLayout& layout, int sweeps);
+///
+/// @throws Cancelled
+void relax(SphereLayout& layout, int sweeps, const Observer& observer = {});
 
 /// Energy of the star of `vertex` were it at `place`; infinite where a triangle would turn.
 double star_energy(const SphereLayout& layout, int vertex, const Eigen::Vector3d& place);

@@ -15,7 +15,7 @@ struct Progress {
 };
 
 /// What the caller wants to hear. Every function may be empty; all are called on the calling
-/// thread.
+/// thread but `is_cancelled`, which is asked on any, on several at once.
 struct Observer {
   std::function<void(const Problem&)> on_problem;  ///< warnings; errors are thrown
   std::function<void(const Progress&)> on_progress;

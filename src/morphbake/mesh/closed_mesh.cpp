@@ -31,6 +31,16 @@ int ClosedMesh::valence(int v) const {
   return count;
 }
 
+bool ClosedMesh::has_valence_above(int v, int count) const {
+  const int first = outgoing(v);
+  int h = first;
+  for (int i = 0; i < count; ++i) {
+    h = turn(h);
+    if (h == first) return false;
+  }
+  return true;
+}
+
 int ClosedMesh::find(int a, int b) const {
   const int first = outgoing(a);
   if (first < 0) return -1;

@@ -68,6 +68,8 @@ class ClosedMesh {
   }
 
   int valence(int v) const;
+  /// Whether v has more than `count` neighbours, at no more cost than counting so far.
+  bool has_valence_above(int v, int count) const;
   /// The half-edge from a to b, -1 without one.
   int find(int a, int b) const;
 

@@ -52,33 +52,41 @@ std::vector<Problem> missing_landmarks(const std::vector<SourceSurface>& surface
   return problems;
 }
 
-}  // namespace
-
-std::vector<SourceSurface> with_common_landmarks(std::vector<SourceSurface> surfaces,
-                                                 const Observer& observer) {
-  const std::vector<std::string> names = all_names(surfaces);
+/// The names that all surfaces have, in the first one's order.
+std::vector<std::string> common_names(const std::vector<SourceSurface>& surfaces) {
   std::vector<std::string> common;
-  for (const std::string& name : names) {
+  for (const std::string& name : all_names(surfaces)) {
     const bool is_common =
         std::all_of(surfaces.begin(), surfaces.end(),
                     [&](const SourceSurface& surface) { return index_of(surface, name) >= 0; });
     if (is_common) common.push_back(name);
   }
-  const bool too_few = common.size() < kFewest;
-  std::vector<Problem> problems =
-      missing_landmarks(surfaces, names, too_few ? Severity::Error : Severity::Warning);
-  if (too_few) {
-    problems.insert(
-        problems.begin(),
-        Problem{Severity::Error,
-                "landmarks.too-few",
-                {surfaces.front().file, ""},
-                fmt::format("the sources have {} landmarks in common; {} are needed", common.size(),
-                            kFewest),
-                "name the same points on every source, or let `morphbake landmarks suggest` "
-                "propose them"});
-    throw BakeError(std::move(problems));
-  }
+  return common;
+}
+
+}  // namespace
+
+std::vector<Problem> common_landmark_problems(const std::vector<SourceSurface>& surfaces) {
+  const std::size_t common = common_names(surfaces).size();
+  const Severity severity = common < kFewest ? Severity::Error : Severity::Warning;
+  std::vector<Problem> problems = missing_landmarks(surfaces, all_names(surfaces), severity);
+  if (common >= kFewest) return problems;
+  problems.insert(problems.begin(),
+                  Problem{Severity::Error,
+                          "landmarks.too-few",
+                          {surfaces.front().file, ""},
+                          fmt::format("the sources have {} landmarks in common; {} are needed",
+                                      common, kFewest),
+                          "name the same points on every source, or let `morphbake landmarks "
+                          "suggest` propose them"});
+  return problems;
+}
+
+std::vector<SourceSurface> with_common_landmarks(std::vector<SourceSurface> surfaces,
+                                                 const Observer& observer) {
+  const std::vector<std::string> common = common_names(surfaces);
+  std::vector<Problem> problems = common_landmark_problems(surfaces);
+  if (common.size() < kFewest) throw BakeError(std::move(problems));
   for (const Problem& problem : problems) report(observer, problem);
   for (SourceSurface& surface : surfaces) {
     std::vector<SurfacePoint> points;

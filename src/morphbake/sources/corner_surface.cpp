@@ -131,11 +131,15 @@ void check_manifold(const SourceMesh& source, const Connectivity& connectivity,
   for (const int v : defects.pinched_vertices) {
     places.push_back(fmt::format("the surface is pinched at {}", place_of(positions, v)));
   }
+  const bool only_turned = defects.crowded_edges.empty() && defects.pinched_vertices.empty();
   fail_source(
       source, "connectivity.not-manifold",
       fmt::format("the surface is no oriented manifold: {}", fmt::join(places, "; ")),
-      "in Blender: Mesh > Clean Up > Merge by Distance, then Select > All by Trait > Non Manifold "
-      "shows the places");
+      only_turned
+          ? "in Blender: Mesh > Normals > Recalculate Outside; a strip that is twisted once "
+            "has no outside"
+          : "in Blender: Mesh > Clean Up > Merge by Distance, then Select > All by Trait > "
+            "Non Manifold shows the places");
 }
 
 }  // namespace morphbake

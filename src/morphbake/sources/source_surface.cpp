@@ -1,13 +1,31 @@
 #include "morphbake/sources/source_surface.h"
 
+#include <utility>
+
 #include "morphbake/sources/corner_surface.h"
 #include "morphbake/sources/hard_edges.h"
 #include "morphbake/sources/places.h"
 
 namespace morphbake {
 
+namespace {
+
+/// Whether `check` finds nothing wrong; what it throws is noted.
+template <typename Check>
+bool passes(const Check& check, std::vector<Problem>& problems) {
+  try {
+    check();
+    return true;
+  } catch (const BakeError& error) {
+    problems.insert(problems.end(), error.problems().begin(), error.problems().end());
+    return false;
+  }
+}
+
+}  // namespace
+
 SourceSurface source_surface(const SourceMesh& source, const SourceRef& ref,
-                             const Observer& observer) {
+                             const Observer& observer, std::vector<Problem>& problems) {
   const std::vector<int> classes = welded_corners(source);
   CornerSurface corners =
       surface_of_corners(classes, without_duplicates(classes, proper_triangles(classes)));
@@ -16,8 +34,16 @@ SourceSurface source_surface(const SourceMesh& source, const SourceRef& ref,
   SourceSurface surface;
   surface.name = source.name;
   surface.file = file_of(source.file);
-  surface.mesh = {vertex_positions(source, corners), corners.connectivity.triangles};
-  check_manifold(source, corners.connectivity, surface.mesh.positions);
+  for (const Landmark& landmark : ref.landmarks) surface.landmark_names.push_back(landmark.name);
+  const Mesh mesh{vertex_positions(source, corners), corners.connectivity.triangles};
+  const bool is_manifold =
+      passes([&] { check_manifold(source, corners.connectivity, mesh.positions); }, problems);
+  if (mesh.triangles.rows() > 0) {
+    passes([&] { surface.landmarks = landmark_points(source, corners, mesh, ref, observer); },
+           problems);
+  }
+  if (!is_manifold) return surface;
+  surface.mesh = mesh;
   surface.vertex_of_render.assign(static_cast<std::size_t>(source.positions.rows()), -1);
   for (std::size_t c = 0; c < corners.vertex_of_corner.size(); ++c) {
     const auto render = static_cast<std::size_t>(source.triangles.data()[c]);
@@ -26,8 +52,14 @@ SourceSurface source_surface(const SourceMesh& source, const SourceRef& ref,
   }
   surface.render_of_corner = render_corners(source, corners);
   surface.hard_edges = find_hard_edges(source, corners, surface.mesh);
-  for (const Landmark& landmark : ref.landmarks) surface.landmark_names.push_back(landmark.name);
-  surface.landmarks = landmark_points(source, corners, surface.mesh, ref, observer);
+  return surface;
+}
+
+SourceSurface source_surface(const SourceMesh& source, const SourceRef& ref,
+                             const Observer& observer) {
+  std::vector<Problem> problems;
+  SourceSurface surface = source_surface(source, ref, observer, problems);
+  if (!problems.empty()) throw BakeError(std::move(problems));
   return surface;
 }
 

@@ -32,4 +32,9 @@ struct SourceSurface {
 SourceSurface source_surface(const SourceMesh& source, const SourceRef& ref,
                              const Observer& observer);
 
+/// The same, but all that would be thrown is added to `problems`: then a surface that is no
+/// manifold comes without triangles, and landmarks that cannot be placed leave only their names.
+SourceSurface source_surface(const SourceMesh& source, const SourceRef& ref,
+                             const Observer& observer, std::vector<Problem>& problems);
+
 }  // namespace morphbake

@@ -11,7 +11,7 @@ namespace {
 
 ConnectivityReport full_connectivity() {
   TriangulationQuality quality;
-  quality.sources.push_back({"a", 0.001, 0.002, 1, 2, 3, 20, 0, SphereQuality{}});
+  quality.sources.push_back({"a", 0.001, 0.002, 1, 3, 3, 0, 20, 0.05, 0, SphereQuality{}});
   quality.maps.push_back({"b", 1.2, 1.1, 1.5, 2, 7});
   quality.regions.push_back({"b", 4, 0.01, {1, 2, 3}, "tip", 0.1});
   return {ConnectivityMode::Remesh, 8, 12, {{"sphere", 0.5}}, quality};
@@ -91,11 +91,30 @@ TEST(Report, OfASharedConnectivityTellsItsSizeOnly) {
 
 TEST(ConnectivityWarnings, NameWhatIsWorthALook) {
   const std::vector<Problem> warnings =
-      connectivity_warnings(Recipe{}, *full_connectivity().quality);
+      connectivity_warnings(Recipe{}, 100, *full_connectivity().quality);
   std::vector<std::string> codes;
   for (const Problem& warning : warnings) codes.push_back(warning.code);
   EXPECT_EQ(codes,
             (std::vector<std::string>{"connectivity.folds", "connectivity.high-distortion"}));
+}
+
+TEST(ConnectivityWarnings, TellWhatTheLimitOfVerticesLeftUndone) {
+  Recipe recipe;
+  recipe.connectivity.max_vertices = 100;
+  TriangulationQuality quality;
+  quality.sources.emplace_back().source = "cow";
+  quality.sources[0].source_to_remesh = 0.01;
+  quality.sources[0].longest_edge = 0.3;
+  std::vector<Problem> warnings = connectivity_warnings(recipe, 100, quality);
+  ASSERT_EQ(warnings.size(), 2U);
+  EXPECT_EQ(warnings[0].code, "connectivity.error-not-reached");
+  EXPECT_EQ(warnings[0].message,
+            "\"cow\" is met within 0.01 of its diagonal, not within max_error (0.002); refinement "
+            "ended at max_vertices (100)");
+  EXPECT_EQ(warnings[1].code, "connectivity.edge-length-not-reached");
+  warnings = connectivity_warnings(recipe, 99, quality);
+  ASSERT_EQ(warnings.size(), 1U);
+  EXPECT_EQ(warnings[0].message.find("max_vertices"), std::string::npos);
 }
 
 }  // namespace

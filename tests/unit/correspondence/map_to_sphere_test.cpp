@@ -6,6 +6,7 @@
 
 #include "morphbake/connectivity/shared_triangulation.h"
 #include "morphbake/correspondence/check_map.h"
+#include "morphbake/correspondence/source_topology.h"
 #include "morphbake/correspondence/spherical_map.h"
 #include "morphbake/diagnostics/problem.h"
 #include "shapes/shapes.h"
@@ -66,6 +67,16 @@ TEST(MapToSphere, RefusesHandlesPiecesAndHoles) {
   EXPECT_EQ(code_of(sources), "correspondence.pieces");
   sources[1] = surface("disk", test::grid(6, 6), kAxes);
   EXPECT_EQ(code_of(sources), "correspondence.different-topology");
+}
+
+TEST(MapToSphere, TellsAllThatIsWrongAtOnce) {
+  std::vector<SourceSurface> sources = two_spheres();
+  sources[0] = surface("disk", test::grid(6, 6), kAxes);
+  sources.push_back(surface("two", test::joined(test::torus(12, 16), test::tetrahedron()), kAxes));
+  std::vector<std::string> codes;
+  for (const Problem& problem : topology_problems(sources)) codes.push_back(problem.code);
+  EXPECT_EQ(codes, (std::vector<std::string>{"correspondence.different-topology",
+                                             "correspondence.pieces", "correspondence.handles"}));
 }
 
 TEST(MapToSphere, NamesAMirrorImage) {

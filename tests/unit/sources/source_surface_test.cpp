@@ -56,6 +56,21 @@ TEST(SourceSurface, RefusesWhatIsNoManifold) {
   EXPECT_THROW(source_surface(source_of(mesh, "a"), {}, {}), BakeError);
 }
 
+TEST(SourceSurface, TellsOfLandmarksOfASurfaceThatIsNoManifold) {
+  Mesh mesh = test::grid(3, 3);
+  mesh.triangles.conservativeResize(9, 3);
+  mesh.triangles.row(8) << 4, 0, 8;
+  SourceRef ref;
+  ref.landmarks = {{"far", Eigen::Vector3d(0, 0, 50)}};
+  std::vector<Problem> problems;
+  const SourceSurface surface = source_surface(source_of(mesh, "a"), ref, {}, problems);
+  ASSERT_EQ(problems.size(), 2U);
+  EXPECT_EQ(problems[0].code, "connectivity.not-manifold");
+  EXPECT_EQ(problems[1].code, "landmarks.off-surface");
+  EXPECT_EQ(surface.mesh.triangles.rows(), 0);
+  EXPECT_EQ(surface.landmark_names.size(), 1U);
+}
+
 TEST(SourceSurface, DropsDegenerateAndRepeatedTriangles) {
   Mesh mesh = test::sphere(8, 10);
   const Eigen::Index count = mesh.triangles.rows();

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <map>
+#include <vector>
+
+#include "morphbake/diagnostics/problem.h"
+#include "morphbake/sources/source_surface.h"
+
+namespace morphbake {
+
+/// The next boundary vertex of each boundary vertex, against the triangles' direction.
+///
+/// @param triangles  of an oriented manifold
+std::map<int, int> boundary_steps(const Triangles& triangles);
+
+/// All that keeps one surface from being laid on a sphere.
+///
+/// @return  "correspondence.pieces", "correspondence.holes", "correspondence.handles",
+///          "correspondence.too-few-vertices"
+std::vector<Problem> topology_problems(const SourceSurface& source);
+
+/// The same of several, and "correspondence.different-topology" where the sound ones differ.
+///
+/// @param sources  those without triangles are passed over
+std::vector<Problem> topology_problems(const std::vector<SourceSurface>& sources);
+
+}  // namespace morphbake
