@@ -258,11 +258,12 @@ void run(const std::vector<std::string>& arguments) {
 }  // namespace
 }  // namespace morphbake::bench
 
-int main(int argc, char** argv) try {
-  morphbake::bench::run({argv + 1, argv + argc});
-  return 0;
-
-} catch (const std::exception& error) {
-  std::cerr << error.what() << "\n";
-  return 1;
+int main(int argc, char** argv) {
+  try {
+    morphbake::bench::run({argv + 1, argv + argc});
+    return 0;
+  } catch (const std::exception& error) {
+    std::cerr << error.what() << "\n";
+    return 1;
+  }
 }

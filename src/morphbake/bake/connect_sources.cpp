@@ -51,8 +51,7 @@ TriangulationQuality measured(const Recipe& recipe, const RemeshedSources& remes
                               const Observer& observer) {
   TriangulationQuality quality =
       measure_triangulation(remeshed.surfaces, remeshed.triangulation, observer);
-  const int vertices = remeshed.triangulation.connectivity.vertex_count;
-  for (const Problem& warning : connectivity_warnings(recipe, vertices, quality)) {
+  for (const Problem& warning : connectivity_warnings(recipe, remeshed.triangulation, quality)) {
     report(observer, warning);
   }
   return quality;

@@ -75,11 +75,22 @@ std::string advice_for(const DistortionRegion& region) {
       place, region.landmark_distance, region.nearest_landmark);
 }
 
-std::vector<Problem> connectivity_warnings(const Recipe& recipe, int vertices,
+std::vector<Problem> connectivity_warnings(const Recipe& recipe,
+                                           const SharedTriangulation& triangulation,
                                            const TriangulationQuality& quality) {
   std::vector<Problem> warnings;
+  const bool ended_by_limit =
+      triangulation.connectivity.vertex_count >= recipe.connectivity.max_vertices;
+  if (triangulation.rounded_hard_edges > 0) {
+    warnings.push_back(warning(
+        recipe, "connectivity.rounded-hard-edges",
+        fmt::format("{} hard edges of the sources found no room and are "
+                    "rounded within max_error",
+                    triangulation.rounded_hard_edges),
+        ended_by_limit ? "allow more max_vertices" : "a smaller target_edge_length makes room"));
+  }
   for (const SourceQuality& source : quality.sources) {
-    add_size_warnings(recipe, vertices >= recipe.connectivity.max_vertices, source, warnings);
+    add_size_warnings(recipe, ended_by_limit, source, warnings);
     add_source_warnings(recipe, source, warnings);
   }
   for (const MapQuality& map : quality.maps) {

@@ -6,6 +6,7 @@
 
 #include "morphbake/bake/stage_report.h"
 #include "morphbake/connectivity/measure_triangulation.h"
+#include "morphbake/connectivity/shared_triangulation.h"
 #include "morphbake/diagnostics/problem.h"
 #include "morphbake/recipe/recipe.h"
 
@@ -22,8 +23,9 @@ struct ConnectivityReport {
 
 /// What is worth a look in a new connectivity, at most one warning of each kind a source.
 ///
-/// @param vertices  how many it has: with max_vertices, refinement ended there
-std::vector<Problem> connectivity_warnings(const Recipe& recipe, int vertices,
+/// Where it has max_vertices vertices, refinement ended there.
+std::vector<Problem> connectivity_warnings(const Recipe& recipe,
+                                           const SharedTriangulation& triangulation,
                                            const TriangulationQuality& quality);
 
 /// What helps a region of high distortion: "add a landmark at the tip ...".

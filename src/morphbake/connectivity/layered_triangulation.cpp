@@ -94,7 +94,11 @@ int triangle_over(const LayeredTriangulation& t, const Layer& layer, const Vecto
   int best = -1;
   double best_weight = 0;
   for (int f = 0; f < t.mesh.triangle_slots(); ++f) {
-    if (!t.mesh.has_triangle(f) || x.dot(corner(3 * f)) < 0) continue;
+    if (!t.mesh.has_triangle(f)) continue;
+    // One corner at least lies before x, or the triangle is on the other side.
+    if (x.dot(corner(3 * f)) < 0 && x.dot(corner(3 * f + 1)) < 0 && x.dot(corner(3 * f + 2)) < 0) {
+      continue;
+    }
     const double weight =
         central_weights(x, corner(3 * f), corner(3 * f + 1), corner(3 * f + 2)).minCoeff();
     if (best >= 0 && weight <= best_weight) continue;

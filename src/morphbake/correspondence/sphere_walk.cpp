@@ -123,7 +123,10 @@ int SphereAtlas::locate_slowly(const Vector3d& x) const {
   int best = 0;
   double best_weight = -std::numeric_limits<double>::infinity();
   for (int f = 0; f < map->surface.triangles.rows(); ++f) {
-    if (x.dot(corner(3 * f)) < 0) continue;
+    // One corner at least lies before x, or the triangle is on the other side.
+    if (x.dot(corner(3 * f)) < 0 && x.dot(corner(3 * f + 1)) < 0 && x.dot(corner(3 * f + 2)) < 0) {
+      continue;
+    }
     const double weight =
         central_weights(x, corner(3 * f), corner(3 * f + 1), corner(3 * f + 2)).minCoeff();
     if (weight <= best_weight) continue;

@@ -17,6 +17,12 @@ ConnectivityReport full_connectivity() {
   return {ConnectivityMode::Remesh, 8, 12, {{"sphere", 0.5}}, quality};
 }
 
+SharedTriangulation of_vertices(int count) {
+  SharedTriangulation triangulation;
+  triangulation.connectivity.vertex_count = count;
+  return triangulation;
+}
+
 BakeReport full_report() {
   BakeReport report;
   report.recipe = "nose";
@@ -91,7 +97,7 @@ TEST(Report, OfASharedConnectivityTellsItsSizeOnly) {
 
 TEST(ConnectivityWarnings, NameWhatIsWorthALook) {
   const std::vector<Problem> warnings =
-      connectivity_warnings(Recipe{}, 100, *full_connectivity().quality);
+      connectivity_warnings(Recipe{}, of_vertices(100), *full_connectivity().quality);
   std::vector<std::string> codes;
   for (const Problem& warning : warnings) codes.push_back(warning.code);
   EXPECT_EQ(codes,
@@ -105,14 +111,14 @@ TEST(ConnectivityWarnings, TellWhatTheLimitOfVerticesLeftUndone) {
   quality.sources.emplace_back().source = "cow";
   quality.sources[0].source_to_remesh = 0.01;
   quality.sources[0].longest_edge = 0.3;
-  std::vector<Problem> warnings = connectivity_warnings(recipe, 100, quality);
+  std::vector<Problem> warnings = connectivity_warnings(recipe, of_vertices(100), quality);
   ASSERT_EQ(warnings.size(), 2U);
   EXPECT_EQ(warnings[0].code, "connectivity.error-not-reached");
   EXPECT_EQ(warnings[0].message,
             "\"cow\" is met within 0.01 of its diagonal, not within max_error (0.002); refinement "
             "ended at max_vertices (100)");
   EXPECT_EQ(warnings[1].code, "connectivity.edge-length-not-reached");
-  warnings = connectivity_warnings(recipe, 99, quality);
+  warnings = connectivity_warnings(recipe, of_vertices(99), quality);
   ASSERT_EQ(warnings.size(), 1U);
   EXPECT_EQ(warnings[0].message.find("max_vertices"), std::string::npos);
 }

@@ -175,7 +175,7 @@ TEST(Triangulate, LaysEdgesAlongTheHardEdgesOfEverySource) {
   sources[0].hard_edges = edges_where(
       sources[0].mesh, [](const Eigen::RowVector3d& p) { return std::abs(p.y()) < 1e-9; });
   sources[1].hard_edges = edges_where(test::sphere(17, 23), [](const Eigen::RowVector3d& p) {
-    return std::abs(p.z()) < 1e-9 && p.x() > 0.1;
+    return std::abs(p.x()) < 1e-9 && p.z() > 0.1;
   });
   ASSERT_EQ(sources[0].hard_edges.size(), 16u);
   ASSERT_GT(sources[1].hard_edges.size(), 8u);
