@@ -55,6 +55,7 @@ SharedTriangulation project(const std::vector<SourceSurface>& surfaces) {
   shared.connectivity = {static_cast<int>(first.positions.rows()), first.triangles};
   shared.on_boundary.assign(static_cast<std::size_t>(first.positions.rows()), 0);
   shared.geometries.push_back(first.positions);
+  shared.on_source.push_back(closest_points(first, first.positions));
   const Positions marks = landmark_positions(surfaces[0]);
   for (Eigen::Index i = 0; i < marks.rows(); ++i) {
     shared.landmarks.push_back(nearest_vertex(first.positions, marks.row(i)));
@@ -70,6 +71,7 @@ SharedTriangulation project(const std::vector<SourceSurface>& surfaces) {
     for (Eigen::Index v = 0; v < onto.rows(); ++v) {
       onto.row(v) = position_of(surfaces[s].mesh, places[static_cast<std::size_t>(v)]);
     }
+    shared.on_source.push_back(places);
   }
   return shared;
 }

@@ -87,7 +87,7 @@ Places places_in_triangle(const LayeredTriangulation& t, int f, const Vector3d& 
 int triangle_over(const LayeredTriangulation& t, const Layer& layer, const Vector3d& x, int start) {
   const auto corner = [&](int h) -> const Vector3d& { return layer.sphere[index(t.mesh.from(h))]; };
   const auto opposite = [&](int h) { return t.mesh.opposite(h); };
-  if (t.mesh.has_triangle(start) && x.dot(corner(3 * start)) > 0) {
+  if (start >= 0 && t.mesh.has_triangle(start) && x.dot(corner(3 * start)) > 0) {
     const int found = walk_to(x, start, 2000, corner, opposite);
     if (found >= 0) return found;
   }

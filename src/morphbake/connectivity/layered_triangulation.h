@@ -82,7 +82,7 @@ Places places_in_triangle(const LayeredTriangulation& t, int f, const Eigen::Vec
 
 /// The triangle of `t` over a place on the sphere in one layer.
 ///
-/// @param start  a triangle near by; the nearer, the faster
+/// @param start  a triangle near by; the nearer, the faster; -1: unknown
 int triangle_over(const LayeredTriangulation& t, const Layer& layer, const Eigen::Vector3d& x,
                   int start);
 

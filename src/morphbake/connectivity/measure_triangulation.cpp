@@ -35,11 +35,26 @@ std::vector<int> triangles_below(const Mesh& source, const Mesh& remesh) {
   return below;
 }
 
-int count_folds(const Mesh& source, const Mesh& remesh, const std::vector<int>& below) {
+/// Sum of the unit normals of a source where the corners of a triangle lie on it.
+Eigen::RowVector3d normal_at_corners(const Mesh& source, const std::vector<SurfacePoint>& on_source,
+                                     const Eigen::RowVector3i& corners) {
+  Eigen::RowVector3d sum = Eigen::RowVector3d::Zero();
+  for (const int v : corners) {
+    sum += face_normal(source, on_source[static_cast<std::size_t>(v)].triangle).normalized();
+  }
+  return sum;
+}
+
+/// The nearest surface alone would not do: where two sheets lie close to one another, as lips do,
+/// it may be the other one.
+int count_folds(const Mesh& source, const std::vector<SurfacePoint>& on_source, const Mesh& remesh,
+                const std::vector<int>& below) {
   int folds = 0;
   for (int f = 0; f < remesh.triangles.rows(); ++f) {
+    const Eigen::RowVector3d normal = face_normal(remesh, f);
     const int under = below[static_cast<std::size_t>(f)];
-    folds += face_normal(remesh, f).dot(face_normal(source, under)) < 0;
+    folds += normal.dot(face_normal(source, under)) < 0 &&
+             normal.dot(normal_at_corners(source, on_source, remesh.triangles.row(f))) < 0;
   }
   return folds;
 }
@@ -119,7 +134,7 @@ SourceQuality measure_source(const std::vector<SourceSurface>& surfaces,
   quality.source_to_remesh = hausdorff_distance(source.mesh, remesh, bound) / diagonal;
   quality.remesh_to_source = hausdorff_distance(remesh, source.mesh, bound) / diagonal;
   const std::vector<int> below = triangles_below(source.mesh, remesh);
-  quality.folds = count_folds(source.mesh, remesh, below);
+  quality.folds = count_folds(source.mesh, triangulation.on_source[s], remesh, below);
   const std::vector<std::pair<int, int>> pairs = self_intersections(remesh);
   quality.self_intersections = static_cast<int>(pairs.size());
   quality.new_self_intersections = count_new(pairs, source.mesh, below);

@@ -22,8 +22,9 @@ struct SourceQuality {
   std::string source;
   double source_to_remesh = 0;  ///< Hausdorff distance, fraction of the diagonal
   double remesh_to_source = 0;  ///< Hausdorff distance, fraction of the diagonal
-  int folds = 0;                ///< triangles that face against the source's surface below them
-  int self_intersections = 0;   ///< pairs of triangles
+  /// Triangles that face against the surface nearest to their middle and at their corners.
+  int folds = 0;
+  int self_intersections = 0;         ///< pairs of triangles
   int source_self_intersections = 0;  ///< of the source itself
   int new_self_intersections = 0;     ///< pairs away from the source's own
   double smallest_angle = 0;          ///< degrees

@@ -6,6 +6,7 @@
 #include <limits>
 #include <optional>
 
+#include "morphbake/connectivity/distant_triangles.h"
 #include "morphbake/connectivity/relax.h"
 #include "morphbake/connectivity/repair.h"
 #include "morphbake/connectivity/surface_checks.h"
@@ -17,6 +18,8 @@ namespace {
 constexpr int kRounds = 20;
 constexpr int kPatience = 6;        // rounds that may be worse than the best
 constexpr double kBadTriangle = 5;  // triangle_cost
+constexpr double kHopeless = 40;    // the same, of folds and of triangles that are nearly lines
+constexpr double kShare = 0.9;      // of max_error, since only some points are looked at
 
 std::size_t index(int i) { return static_cast<std::size_t>(i); }
 
@@ -57,20 +60,23 @@ std::vector<int> newly_cut(const LayeredTriangulation& t, const Layer& layer,
   return cut;
 }
 
-/// Folded and newly cut triangles of all layers.
-std::vector<int> broken_triangles(const LayeredTriangulation& t,
+/// Folded, degenerate, newly cut and distant triangles of all layers; some several times.
+std::vector<int> broken_triangles(const LayeredTriangulation& t, SourcePoints& points,
+                                  double max_error,
                                   std::vector<std::vector<char>>& near_source_cut) {
-  std::vector<std::vector<int>> cut(t.layers.size());
-  tbb::parallel_for(std::size_t{0}, t.layers.size(),
-                    [&](std::size_t s) { cut[s] = newly_cut(t, t.layers[s], near_source_cut[s]); });
+  std::vector<std::vector<int>> found(t.layers.size());
+  tbb::parallel_for(std::size_t{0}, t.layers.size(), [&](std::size_t s) {
+    found[s] = newly_cut(t, t.layers[s], near_source_cut[s]);
+    const std::vector<int> distant = distant_triangles(t, s, points, kShare * max_error);
+    found[s].insert(found[s].end(), distant.begin(), distant.end());
+  });
   std::vector<int> broken;
-  for (const std::vector<int>& of_layer : cut) {
+  for (const std::vector<int>& of_layer : found) {
     broken.insert(broken.end(), of_layer.begin(), of_layer.end());
   }
   for (int f = 0; f < t.mesh.triangle_slots(); ++f) {
     int folds = 0;
-    if (t.mesh.has_triangle(f)) triangle_cost(t, f, folds);
-    if (folds > 0) broken.push_back(f);
+    if (t.mesh.has_triangle(f) && triangle_cost(t, f, folds) > kHopeless) broken.push_back(f);
   }
   return broken;
 }
@@ -109,13 +115,14 @@ void split_worst_edges(LayeredTriangulation& t, const std::vector<int>& triangle
 
 }  // namespace
 
-void mend(LayeredTriangulation& t, SourcePoints& points, double tolerance, int vertex_limit) {
+void mend(LayeredTriangulation& t, SourcePoints& points, double max_error, int vertex_limit) {
+  const double tolerance = 0.5 * max_error;
   std::vector<std::vector<char>> near_source_cut(t.layers.size());
   std::optional<LayeredTriangulation> best;
   std::size_t fewest = std::numeric_limits<std::size_t>::max();
   int since_best = 0;
   for (int round = 0; round < kRounds; ++round) {
-    const std::vector<int> broken = broken_triangles(t, near_source_cut);
+    const std::vector<int> broken = broken_triangles(t, points, max_error, near_source_cut);
     ++since_best;
     if (broken.size() < fewest) {
       best = t;

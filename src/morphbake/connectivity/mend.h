@@ -5,12 +5,13 @@
 
 namespace morphbake {
 
-/// Refines where triangles are folded over, or cut one another although their sources do not there,
-/// and repairs again, until there are none or nothing helps any more.
+/// Refines where triangles are folded over or degenerate, cut one another although their sources do
+/// not there, or are further than `max_error` from a source, and repairs again, until there are
+/// none or nothing helps any more.
 ///
 /// Both come from chords across detail that is finer than the tolerance: on the sphere, where the
 /// triangulation is made, nothing is folded. Nearer to the surfaces they vanish.
-/// @param tolerance  fraction of the diagonal, that of the rest of the triangulation
-void mend(LayeredTriangulation& t, SourcePoints& points, double tolerance, int vertex_limit);
+/// @param max_error  fraction of the diagonal
+void mend(LayeredTriangulation& t, SourcePoints& points, double max_error, int vertex_limit);
 
 }  // namespace morphbake

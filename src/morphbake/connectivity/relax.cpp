@@ -20,7 +20,7 @@ std::size_t index(int i) { return static_cast<std::size_t>(i); }
 
 /// What a sweep holds still: one entry a triangle slot.
 struct Frozen {
-  std::vector<RestTriangle> rest;              ///< mean over the layers
+  std::vector<RestTriangle> rest;
   std::vector<std::vector<Vector3d>> normals;  ///< one list a layer: of the source below
 };
 
@@ -30,7 +30,8 @@ Vector3d squared_lengths(const Layer& layer, int a, int b, int c) {
   return {(pb - pc).squaredNorm(), (pc - pa).squaredNorm(), (pa - pb).squaredNorm()};
 }
 
-void freeze(const LayeredTriangulation& t, Frozen& frozen) {
+void freeze(const LayeredTriangulation& t, Rest rest, Frozen& frozen) {
+  const std::size_t counted = rest == Rest::First ? 1 : t.layers.size();
   const auto slots = index(t.mesh.triangle_slots());
   frozen.rest.resize(slots);
   frozen.normals.resize(t.layers.size());
@@ -41,10 +42,10 @@ void freeze(const LayeredTriangulation& t, Frozen& frozen) {
     const int a = t.mesh.from(3 * f), b = t.mesh.from(3 * f + 1), c = t.mesh.from(3 * f + 2);
     Vector3d mean = Vector3d::Zero();
     for (std::size_t s = 0; s < t.layers.size(); ++s) {
-      mean += squared_lengths(t.layers[s], a, b, c);
+      if (s < counted) mean += squared_lengths(t.layers[s], a, b, c);
       frozen.normals[s][slot] = normal_below(t.layers[s], a, b, c);
     }
-    frozen.rest[slot] = rest_triangle(mean / static_cast<double>(t.layers.size()), kLimits);
+    frozen.rest[slot] = rest_triangle(mean / static_cast<double>(counted), kLimits);
   });
 }
 
@@ -202,7 +203,7 @@ class LayerRelaxation {
 void relax(LayeredTriangulation& t, const RelaxOptions& options) {
   Frozen frozen;
   for (int sweep = 0; sweep < options.sweeps; ++sweep) {
-    freeze(t, frozen);
+    freeze(t, options.rest, frozen);
     tbb::parallel_for(std::size_t{0}, t.layers.size(), [&](std::size_t s) {
       LayerRelaxation(t, t.layers[s], frozen, frozen.normals[s], options).sweep(sweep % 2 == 1);
     });

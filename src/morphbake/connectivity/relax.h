@@ -5,6 +5,12 @@
 
 namespace morphbake {
 
+/// What triangles should be like.
+enum class Rest {
+  Mean,   ///< the mean of all layers, in squared edge lengths
+  First,  ///< the first layer: layers come to it faster, but do not meet it midway
+};
+
 /// How vertices are relaxed.
 struct RelaxOptions {
   int sweeps = 1;
@@ -17,14 +23,15 @@ struct RelaxOptions {
   /// Vertices where a triangle's normal turns from the vertex's by more than this cosine stay
   /// where they capture a feature; -1: none stays.
   double feature_cosine = -1;
-  Patch patch;  ///< what moves
+  Rest rest = Rest::Mean;
+  Patch patch = {};  ///< what moves
 };
 
-/// Moves the vertices on each source so that triangles differ little from the mean of all sources
-/// and lie flat on the surfaces.
+/// Moves the vertices on each source so that triangles differ little from their rest and lie flat
+/// on the surfaces.
 ///
-/// The mean is that of the metrics (squared edge lengths), taken once a sweep: the cost is linear
-/// in the sources, and they can be relaxed side by side. Pairwise energies cost the square.
+/// The rest is taken once a sweep: the cost is linear in the sources, and they can be relaxed side
+/// by side. Pairwise energies cost the square.
 void relax(LayeredTriangulation& t, const RelaxOptions& options);
 
 }  // namespace morphbake

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "morphbake/mesh/closest_point.h"
 #include "shapes/shapes.h"
 
 namespace morphbake {
@@ -21,6 +22,9 @@ SharedTriangulation triangulation_of(const Mesh& mesh, const std::vector<Positio
   SharedTriangulation triangulation;
   triangulation.connectivity = {static_cast<int>(mesh.positions.rows()), mesh.triangles};
   triangulation.geometries = geometries;
+  for (const Positions& geometry : geometries) {
+    triangulation.on_source.push_back(closest_points(mesh, geometry));
+  }
   return triangulation;
 }
 
