@@ -19,10 +19,29 @@ struct Suspect {
   int triangle = -1;
 };
 
-/// Into how many pieces an edge is cut to look at the points between.
-int pieces_of(double length, double bound) {
-  constexpr double kSpacing = 10;  // bounds
-  return std::clamp(static_cast<int>(std::ceil(length / (kSpacing * bound))), 2, 8);
+/// Looks at points spread over a triangle, its corners and edges included: at few, and where one of
+/// them is not clearly near, at many. `distance(weights)` is that of a point from the other
+/// surface; `far(weights)` is called where it is above `bound`.
+template <typename Distance, typename Far>
+void spread(const Eigen::Matrix3d& corners, double bound, const Distance& distance,
+            const Far& far) {
+  constexpr double kFew = 4, kMany = 1;  // bounds between points
+  constexpr double kClearlyNear = 0.6;   // bounds
+  const double longest =
+      std::max({(corners.col(0) - corners.col(1)).norm(), (corners.col(1) - corners.col(2)).norm(),
+                (corners.col(2) - corners.col(0)).norm()});
+  const auto each = [&](double spacing, const auto& look) {
+    const int pieces = std::clamp(static_cast<int>(std::ceil(longest / (spacing * bound))), 2, 32);
+    for (int i = 0; i <= pieces; ++i) {
+      for (int k = 0; i + k <= pieces; ++k) look(Vector3d(i, k, pieces - i - k) / pieces);
+    }
+  };
+  double largest = 0;
+  each(kFew, [&](const Vector3d& weights) { largest = std::max(largest, distance(weights)); });
+  if (largest < kClearlyNear * bound) return;
+  each(kMany, [&](const Vector3d& weights) {
+    if (distance(weights) > bound) far(weights);
+  });
 }
 
 Mesh lifted_mesh(const LayeredTriangulation& t, const Layer& layer) {
@@ -51,59 +70,48 @@ Mesh source_mesh(const SphereAtlas& atlas) {
 std::vector<Suspect> suspects_of_triangulation(const LayeredTriangulation& t, const Layer& layer,
                                                double bound) {
   std::vector<Suspect> suspects;
-  const auto look = [&](const Vector3d& place, const Vector3d& chord, int near_vertex, int f) {
-    const Vector3d x = place.normalized();
-    const int below = layer.atlas.locate(x, layer.triangle[index(near_vertex)]);
-    const Vector3d there = layer.atlas.position(below, layer.atlas.weights_at(x, below));
-    if ((chord - there).norm() > bound) suspects.push_back({chord, f});
-  };
   for (int f = 0; f < t.mesh.triangle_slots(); ++f) {
     if (!t.mesh.has_triangle(f) || t.is_cap(f)) continue;
-    Vector3d place = Vector3d::Zero(), chord = Vector3d::Zero();
-    for (int h = 3 * f; h < 3 * f + 3; ++h) {
-      const int a = t.mesh.from(h), b = t.mesh.to(h);
-      const Vector3d &sa = layer.sphere[index(a)], &sb = layer.sphere[index(b)];
-      const Vector3d &pa = layer.lifted[index(a)], &pb = layer.lifted[index(b)];
-      place += sa;
-      chord += pa / 3;
-      if (a > b && !t.is_boundary_edge(h)) continue;  // seen from the other side
-      const int pieces = pieces_of((pa - pb).norm(), bound);
-      for (int i = 1; i < pieces; ++i) {
-        const double share = static_cast<double>(i) / pieces;
-        look((1 - share) * sa + share * sb, (1 - share) * pa + share * pb, a, f);
-      }
+    Eigen::Matrix3d place, chord;  // columns are corners
+    for (int k = 0; k < 3; ++k) {
+      place.col(k) = layer.sphere[index(t.mesh.from(3 * f + k))];
+      chord.col(k) = layer.lifted[index(t.mesh.from(3 * f + k))];
     }
-    look(place, chord, t.mesh.from(3 * f), f);
+    int below = layer.triangle[index(t.mesh.from(3 * f))];
+    const auto distance = [&](const Vector3d& weights) {
+      const Vector3d x = (place * weights).normalized();
+      below = layer.atlas.locate(x, below);
+      const Vector3d there = layer.atlas.position(below, layer.atlas.weights_at(x, below));
+      return (chord * weights - there).norm();
+    };
+    spread(chord, bound, distance, [&](const Vector3d& weights) {
+      suspects.push_back({chord * weights, f});
+    });
   }
   return suspects;
 }
 
 /// Points of the source that the sphere puts further than `bound` from the triangulation.
 std::vector<Suspect> suspects_of_source(const LayeredTriangulation& t, const Layer& layer,
-                                        std::vector<int>& triangle_of_vertex, double bound) {
+                                        const std::vector<int>& triangle_of_vertex, double bound) {
   std::vector<Suspect> suspects;
   const SphereAtlas& atlas = layer.atlas;
-  const auto look = [&](const Vector3d& place, const Vector3d& position, int start) {
-    const int f = triangle_over(t, layer, place.normalized(), start);
-    if (t.is_cap(f)) return f;
-    const auto corner = [&](int k) { return layer.lifted[index(t.mesh.from(3 * f + k))]; };
-    if (point_triangle_distance(position, corner(0), corner(1), corner(2)) > bound) {
-      suspects.push_back({position, f});
+  for (int f = 0; f < static_cast<int>(atlas.normals.size()); ++f) {
+    Eigen::Matrix3d place, position;  // columns are corners
+    for (int k = 0; k < 3; ++k) {
+      place.col(k) = atlas.sphere[index(atlas.from(3 * f + k))];
+      position.col(k) = atlas.positions[index(atlas.from(3 * f + k))];
     }
-    return f;
-  };
-  for (int h = 0; h < static_cast<int>(atlas.opposite.size()); ++h) {
-    const int a = atlas.from(h), b = atlas.from(ClosedMesh::next(h));
-    if (atlas.opposite[index(h)] >= 0 && a > b) continue;
-    const Vector3d &pa = atlas.positions[index(a)], &pb = atlas.positions[index(b)];
-    int& last = triangle_of_vertex[index(a)];
-    const int pieces = pieces_of((pa - pb).norm(), bound);
-    for (int i = 0; i < pieces; ++i) {
-      const double share = static_cast<double>(i) / pieces;
-      const int f = look((1 - share) * atlas.sphere[index(a)] + share * atlas.sphere[index(b)],
-                         (1 - share) * pa + share * pb, last);
-      if (i == 0) last = f;
-    }
+    int above = triangle_of_vertex[index(atlas.from(3 * f))];
+    const auto distance = [&](const Vector3d& weights) {
+      above = triangle_over(t, layer, (place * weights).normalized(), above);
+      if (t.is_cap(above)) return 0.0;
+      const auto corner = [&](int k) { return layer.lifted[index(t.mesh.from(3 * above + k))]; };
+      return point_triangle_distance(position * weights, corner(0), corner(1), corner(2));
+    };
+    spread(position, bound, distance, [&](const Vector3d& weights) {
+      suspects.push_back({position * weights, above});
+    });
   }
   return suspects;
 }
@@ -126,7 +134,7 @@ void append_guilty(const std::vector<Suspect>& suspects, const Mesh& mesh, doubl
 }  // namespace
 
 std::vector<int> distant_triangles(const LayeredTriangulation& t, std::size_t layer,
-                                   SourcePoints& points, double bound) {
+                                   const SourcePoints& points, double bound) {
   const Layer& on = t.layers[layer];
   const double length = bound * on.atlas.diagonal;
   std::vector<int> triangles;

@@ -61,7 +61,7 @@ std::vector<int> newly_cut(const LayeredTriangulation& t, const Layer& layer,
 }
 
 /// Folded, degenerate, newly cut and distant triangles of all layers; some several times.
-std::vector<int> broken_triangles(const LayeredTriangulation& t, SourcePoints& points,
+std::vector<int> broken_triangles(const LayeredTriangulation& t, const SourcePoints& points,
                                   double max_error,
                                   std::vector<std::vector<char>>& near_source_cut) {
   std::vector<std::vector<int>> found(t.layers.size());
