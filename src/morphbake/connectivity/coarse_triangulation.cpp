@@ -121,10 +121,8 @@ LayeredTriangulation coarse_triangulation(const std::vector<SphericalMap>& maps,
     const auto n = index(number[index(capped.landmarks[l])]);
     t.is_fixed[n] = 1;
     t.landmarks.push_back(static_cast<int>(n));
-    for (Layer& layer : t.layers) {  // exactly, not to rounding
-      const auto v = index(layer.atlas.map->landmarks[l]);
-      layer.triangle[n] = layer.atlas.triangle_of_vertex[v];
-      layer.lifted[n] = layer.atlas.positions[v];
+    for (Layer& layer : t.layers) {
+      lift_onto(layer, static_cast<int>(n), layer.atlas.map->landmarks[l]);
     }
   }
   return t;

@@ -44,19 +44,6 @@ void spread(const Eigen::Matrix3d& corners, double bound, const Distance& distan
   });
 }
 
-Mesh lifted_mesh(const LayeredTriangulation& t, const Layer& layer) {
-  Mesh mesh{Positions(t.mesh.vertex_slots(), 3), {}};
-  for (int v = 0; v < t.mesh.vertex_slots(); ++v) mesh.positions.row(v) = layer.lifted[index(v)];
-  std::vector<int> corners;
-  for (int f = 0; f < t.mesh.triangle_slots(); ++f) {
-    if (!t.mesh.has_triangle(f) || t.is_cap(f)) continue;
-    for (int h = 3 * f; h < 3 * f + 3; ++h) corners.push_back(t.mesh.from(h));
-  }
-  mesh.triangles =
-      Eigen::Map<const Triangles>(corners.data(), static_cast<Eigen::Index>(corners.size() / 3), 3);
-  return mesh;
-}
-
 Mesh source_mesh(const SphereAtlas& atlas) {
   Mesh mesh{Positions(static_cast<Eigen::Index>(atlas.positions.size()), 3),
             atlas.map->surface.triangles};
@@ -70,8 +57,7 @@ Mesh source_mesh(const SphereAtlas& atlas) {
 std::vector<Suspect> suspects_of_triangulation(const LayeredTriangulation& t, const Layer& layer,
                                                double bound) {
   std::vector<Suspect> suspects;
-  for (int f = 0; f < t.mesh.triangle_slots(); ++f) {
-    if (!t.mesh.has_triangle(f) || t.is_cap(f)) continue;
+  for (const int f : surface_triangles(t)) {
     Eigen::Matrix3d place, chord;  // columns are corners
     for (int k = 0; k < 3; ++k) {
       place.col(k) = layer.sphere[index(t.mesh.from(3 * f + k))];
@@ -116,10 +102,14 @@ std::vector<Suspect> suspects_of_source(const LayeredTriangulation& t, const Lay
   return suspects;
 }
 
-/// The triangles of suspects that are indeed further than `bound` from a mesh.
-void append_guilty(const std::vector<Suspect>& suspects, const Mesh& mesh, double bound,
+/// The triangles of suspects that are indeed further than `bound` from the other surface.
+///
+/// @param surface  surface(): that one; asked only where it is needed
+template <typename Surface>
+void append_guilty(const std::vector<Suspect>& suspects, const Surface& surface, double bound,
                    std::vector<int>& triangles) {
   if (suspects.empty()) return;
+  const Mesh mesh = surface();
   Positions positions(static_cast<Eigen::Index>(suspects.size()), 3);
   for (std::size_t i = 0; i < suspects.size(); ++i) {
     positions.row(static_cast<Eigen::Index>(i)) = suspects[i].position;
@@ -138,9 +128,12 @@ std::vector<int> distant_triangles(const LayeredTriangulation& t, std::size_t la
   const Layer& on = t.layers[layer];
   const double length = bound * on.atlas.diagonal;
   std::vector<int> triangles;
-  append_guilty(suspects_of_triangulation(t, on, length), source_mesh(on.atlas), length, triangles);
-  append_guilty(suspects_of_source(t, on, points.triangle[layer], length), lifted_mesh(t, on),
-                length, triangles);
+  append_guilty(
+      suspects_of_triangulation(t, on, length), [&] { return source_mesh(on.atlas); }, length,
+      triangles);
+  append_guilty(
+      suspects_of_source(t, on, points.triangle[layer], length),
+      [&] { return lifted_mesh(t, on, surface_triangles(t)); }, length, triangles);
   std::sort(triangles.begin(), triangles.end());
   triangles.erase(std::unique(triangles.begin(), triangles.end()), triangles.end());
   return triangles;

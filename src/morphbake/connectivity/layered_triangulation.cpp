@@ -48,10 +48,20 @@ void lift(Layer& layer, int vertex, const Vector3d& place, int near_triangle) {
   layer.lifted[index(vertex)] = layer.atlas.position(f, layer.atlas.weights_at(place, f));
 }
 
-Vector3d normal_below(const Layer& layer, int a, int b, int c) {
+void lift_onto(Layer& layer, int vertex, int source_vertex) {
+  layer.sphere[index(vertex)] = layer.atlas.sphere[index(source_vertex)];
+  layer.triangle[index(vertex)] = layer.atlas.triangle_of_vertex[index(source_vertex)];
+  layer.lifted[index(vertex)] = layer.atlas.positions[index(source_vertex)];
+}
+
+int triangle_below(const Layer& layer, int a, int b, int c) {
   const Vector3d middle =
       (layer.sphere[index(a)] + layer.sphere[index(b)] + layer.sphere[index(c)]).normalized();
-  return layer.atlas.normals[index(layer.atlas.locate(middle, layer.triangle[index(a)]))];
+  return layer.atlas.locate(middle, layer.triangle[index(a)]);
+}
+
+Vector3d normal_below(const Layer& layer, int a, int b, int c) {
+  return layer.atlas.normals[index(triangle_below(layer, a, b, c))];
 }
 
 double middle_deviation(const Layer& layer, int a, int b, const Vector3d& direction) {
@@ -91,21 +101,28 @@ int triangle_over(const LayeredTriangulation& t, const Layer& layer, const Vecto
     const int found = walk_to(x, start, 2000, corner, opposite);
     if (found >= 0) return found;
   }
-  int best = -1;
-  double best_weight = 0;
+  const auto is_there = [&](int f) { return t.mesh.has_triangle(f); };
+  return search_triangle(x, t.mesh.triangle_slots(), is_there, corner);
+}
+
+std::vector<int> surface_triangles(const LayeredTriangulation& t) {
+  std::vector<int> slots;
   for (int f = 0; f < t.mesh.triangle_slots(); ++f) {
-    if (!t.mesh.has_triangle(f)) continue;
-    // One corner at least lies before x, or the triangle is on the other side.
-    if (x.dot(corner(3 * f)) < 0 && x.dot(corner(3 * f + 1)) < 0 && x.dot(corner(3 * f + 2)) < 0) {
-      continue;
-    }
-    const double weight =
-        central_weights(x, corner(3 * f), corner(3 * f + 1), corner(3 * f + 2)).minCoeff();
-    if (best >= 0 && weight <= best_weight) continue;
-    best_weight = weight;
-    best = f;
+    if (t.mesh.has_triangle(f) && !t.is_cap(f)) slots.push_back(f);
   }
-  return best;
+  return slots;
+}
+
+Mesh lifted_mesh(const LayeredTriangulation& t, const Layer& layer, const std::vector<int>& slots) {
+  Mesh mesh{Positions(t.mesh.vertex_slots(), 3),
+            Triangles(static_cast<Eigen::Index>(slots.size()), 3)};
+  for (int v = 0; v < t.mesh.vertex_slots(); ++v) mesh.positions.row(v) = layer.lifted[index(v)];
+  for (std::size_t i = 0; i < slots.size(); ++i) {
+    for (int k = 0; k < 3; ++k) {
+      mesh.triangles(static_cast<Eigen::Index>(i), k) = t.mesh.from(3 * slots[i] + k);
+    }
+  }
+  return mesh;
 }
 
 int split_edge_at(LayeredTriangulation& t, int h, const Places& places) {

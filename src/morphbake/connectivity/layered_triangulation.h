@@ -44,6 +44,13 @@ struct LayeredTriangulation {
 
   bool is_hard(int h) const { return hard_edges.count(edge_key(mesh.from(h), mesh.to(h))) > 0; }
 
+  bool is_on_hard_edge(int v) const {
+    if (hard_edges.empty()) return false;
+    bool is_hard_here = false;
+    mesh.around(v, [&](int h) { is_hard_here |= is_hard(h); });
+    return is_hard_here;
+  }
+
   static std::uint64_t edge_key(int a, int b) {
     const auto low = static_cast<std::uint64_t>(a < b ? a : b);
     return low << 32 | static_cast<std::uint64_t>(a < b ? b : a);
@@ -59,6 +66,9 @@ bool is_positive_everywhere(const LayeredTriangulation& t, int a, int b, int c);
 /// Sets a vertex's place in one layer, from its place on the sphere.
 void lift(Layer& layer, int vertex, const Eigen::Vector3d& place, int near_triangle);
 
+/// Puts a vertex exactly, not to rounding, where one of the atlas's lies.
+void lift_onto(Layer& layer, int vertex, int source_vertex);
+
 /// (b - a) x (c - a) of a triangle on one source.
 inline Eigen::Vector3d area_normal(const Layer& layer, int a, int b, int c) {
   const auto at = [&](int v) -> const Eigen::Vector3d& {
@@ -67,12 +77,21 @@ inline Eigen::Vector3d area_normal(const Layer& layer, int a, int b, int c) {
   return (at(b) - at(a)).cross(at(c) - at(a));
 }
 
+/// The atlas's triangle below the middle of a triangle.
+int triangle_below(const Layer& layer, int a, int b, int c);
+
 /// Unit normal of the source below the middle of a triangle.
 Eigen::Vector3d normal_below(const Layer& layer, int a, int b, int c);
 
 /// Distance of the source from the middle of the chord a - b, seen along `direction` (with length
 /// 0: in full), as a fraction of the diagonal.
 double middle_deviation(const Layer& layer, int a, int b, const Eigen::Vector3d& direction);
+
+/// The slots of all triangles but caps.
+std::vector<int> surface_triangles(const LayeredTriangulation& t);
+
+/// Triangles as they lie on one source, in the atlas's units; vertices keep their slots.
+Mesh lifted_mesh(const LayeredTriangulation& t, const Layer& layer, const std::vector<int>& slots);
 
 /// Where a vertex would lie in every layer.
 using Places = std::vector<Eigen::Vector3d>;

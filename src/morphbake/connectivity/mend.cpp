@@ -23,39 +23,22 @@ constexpr double kShare = 0.9;      // of max_error, since only some points are 
 
 std::size_t index(int i) { return static_cast<std::size_t>(i); }
 
-/// The source's triangle below the middle of a triangle.
-int source_below(const LayeredTriangulation& t, const Layer& layer, int f) {
-  const int a = t.mesh.from(3 * f);
-  const Eigen::Vector3d middle = layer.sphere[index(a)] +
-                                 layer.sphere[index(t.mesh.from(3 * f + 1))] +
-                                 layer.sphere[index(t.mesh.from(3 * f + 2))];
-  return layer.atlas.locate(middle.normalized(), layer.triangle[index(a)]);
-}
-
 /// Triangles that cut others on one source where the source itself does not.
 std::vector<int> newly_cut(const LayeredTriangulation& t, const Layer& layer,
                            std::vector<char>& near_source_cut) {
-  std::vector<int> slots;
-  for (int f = 0; f < t.mesh.triangle_slots(); ++f) {
-    if (t.mesh.has_triangle(f) && !t.is_cap(f)) slots.push_back(f);
-  }
-  Mesh mesh{Positions(t.mesh.vertex_slots(), 3),
-            Triangles(static_cast<Eigen::Index>(slots.size()), 3)};
-  for (int v = 0; v < t.mesh.vertex_slots(); ++v) mesh.positions.row(v) = layer.lifted[index(v)];
-  for (std::size_t i = 0; i < slots.size(); ++i) {
-    for (int k = 0; k < 3; ++k) {
-      mesh.triangles(static_cast<Eigen::Index>(i), k) = t.mesh.from(3 * slots[i] + k);
-    }
-  }
-  const std::vector<std::pair<int, int>> pairs = self_intersections(mesh);
+  const std::vector<int> slots = surface_triangles(t);
+  const std::vector<std::pair<int, int>> pairs = self_intersections(lifted_mesh(t, layer, slots));
   std::vector<int> cut;
   if (pairs.empty()) return cut;
   if (near_source_cut.empty()) near_source_cut = triangles_near_cuts(layer.atlas.map->surface);
+  const auto is_near_cut = [&](int f) {
+    const int below =
+        triangle_below(layer, t.mesh.from(3 * f), t.mesh.from(3 * f + 1), t.mesh.from(3 * f + 2));
+    return near_source_cut[index(below)] != 0;
+  };
   for (const auto& [i, j] : pairs) {
     const int f = slots[index(i)], g = slots[index(j)];
-    const bool is_the_sources = near_source_cut[index(source_below(t, layer, f))] &&
-                                near_source_cut[index(source_below(t, layer, g))];
-    if (!is_the_sources) cut.insert(cut.end(), {f, g});
+    if (!is_near_cut(f) || !is_near_cut(g)) cut.insert(cut.end(), {f, g});
   }
   return cut;
 }

@@ -98,8 +98,7 @@ bool insert_point(LayeredTriangulation& t, int f, const Candidate& candidate) {
     v = split_triangle_at(t, f, places);
   }
   if (v < 0) return false;
-  layer.triangle[index(v)] = layer.atlas.triangle_of_vertex[index(candidate.vertex)];
-  layer.lifted[index(v)] = layer.atlas.positions[index(candidate.vertex)];
+  lift_onto(layer, v, candidate.vertex);
   return true;
 }
 
@@ -306,8 +305,7 @@ Pass insert_boundary_points(LayeredTriangulation& t, double tolerance, int verte
       places[s] = place;
       const int v = split_edge_at(t, h, places);
       if (v < 0) continue;
-      layer.triangle[index(v)] = layer.atlas.triangle_of_vertex[index(worst[i].vertex)];
-      layer.lifted[index(v)] = layer.atlas.positions[index(worst[i].vertex)];
+      lift_onto(layer, v, worst[i].vertex);
       ++pass.changes;
     }
   }

@@ -76,15 +76,8 @@ class LayerRelaxation {
 
  private:
   bool is_movable(int v) const {
-    return !t_.is_fixed[index(v)] && options_.patch.has(v) && !is_on_hard_edge(v) &&
+    return !t_.is_fixed[index(v)] && options_.patch.has(v) && !t_.is_on_hard_edge(v) &&
            !captures_feature(v);
-  }
-
-  bool is_on_hard_edge(int v) const {
-    if (t_.hard_edges.empty()) return false;
-    bool is_hard = false;
-    t_.mesh.around(v, [&](int h) { is_hard |= t_.is_hard(h); });
-    return is_hard;
   }
 
   bool captures_feature(int v) const {

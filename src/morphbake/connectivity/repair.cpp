@@ -310,23 +310,20 @@ class Repair {
   }
 
   bool try_move(int v) {
-    if (t_.is_fixed[index(v)] || t_.on_boundary[index(v)]) return false;
+    if (t_.is_fixed[index(v)] || t_.on_boundary[index(v)] || t_.is_on_hard_edge(v)) return false;
     std::vector<int> star;
     std::vector<Corners> ring;
     std::vector<std::array<int, 2>> edges;
     std::vector<std::vector<LayerTriangle>> shapes;
-    bool is_on_hard_edge = false;
     t_.mesh.around(v, [&](int h) {
       star.push_back(ClosedMesh::triangle_of(h));
       ring.push_back({v, t_.mesh.to(h), t_.mesh.apex(h)});
       edges.push_back({v, t_.mesh.to(h)});
-      is_on_hard_edge |= t_.is_hard(h);
       std::vector<LayerTriangle>& layers = shapes.emplace_back();
       for (const Layer& layer : t_.layers) {
         layers.push_back(layer_triangle(layer, ring.back()[0], ring.back()[1], ring.back()[2]));
       }
     });
-    if (is_on_hard_edge) return false;
     bool moved = false;
     for (std::size_t s = 0; s < t_.layers.size(); ++s)
       moved |= move_in(s, v, star, ring, edges, shapes);

@@ -67,9 +67,8 @@ class Tracer {
   bool is_at(int v, const Vector3d& x) const { return (place(v) - x).squaredNorm() < kAt * kAt; }
 
   bool is_held(int v) const {
-    bool is_held = t_.is_fixed[index(v)] || t_.on_boundary[index(v)] || is_settled_.count(v) > 0;
-    t_.mesh.around(v, [&](int h) { is_held |= t_.is_hard(h); });
-    return is_held;
+    return t_.is_fixed[index(v)] || t_.on_boundary[index(v)] || is_settled_.count(v) > 0 ||
+           t_.is_on_hard_edge(v);
   }
 
   /// Whether a vertex can lie at `to` in this layer.
@@ -85,10 +84,7 @@ class Tracer {
 
   /// Puts a vertex exactly onto a vertex of the source.
   int settle(int v, int source) {
-    Layer& on = layer();
-    on.sphere[index(v)] = on.atlas.sphere[index(source)];
-    on.lifted[index(v)] = on.atlas.positions[index(source)];
-    on.triangle[index(v)] = on.atlas.triangle_of_vertex[index(source)];
+    lift_onto(layer(), v, source);
     vertex_of_source_[index(source)] = v;
     is_settled_.insert(v);
     return v;

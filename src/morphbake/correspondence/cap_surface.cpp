@@ -4,8 +4,7 @@
 #include <utility>
 
 #include "morphbake/correspondence/capped_surface.h"
-#include "morphbake/correspondence/source_topology.h"
-#include "morphbake/diagnostics/problem.h"
+#include "morphbake/mesh/boundary.h"
 #include "morphbake/mesh/closed_mesh.h"
 
 namespace morphbake {
@@ -190,15 +189,13 @@ CappedSurface Splitting::finish() && {
 }  // namespace
 
 CappedSurface cap_surface(const SourceSurface& source) {
-  std::vector<Problem> problems = topology_problems(source);
-  if (!problems.empty()) throw BakeError(std::move(problems));
-  const std::map<int, int> boundary = boundary_steps(source.mesh.triangles);
+  const std::map<int, int> boundary = boundary_edges(source.mesh.triangles);
   const auto vertices = static_cast<int>(source.mesh.positions.rows());
   const int apex = boundary.empty() ? -1 : vertices;
   Triangles capped(source.mesh.triangles.rows() + static_cast<Eigen::Index>(boundary.size()), 3);
   capped.topRows(source.mesh.triangles.rows()) = source.mesh.triangles;
   Eigen::Index row = source.mesh.triangles.rows();
-  for (const auto& [from, to] : boundary) capped.row(row++) << from, to, apex;
+  for (const auto& [from, to] : boundary) capped.row(row++) << to, from, apex;
   Splitting splitting(source, capped, apex);
   std::vector<int> landmarks;
   for (const SurfacePoint& landmark : source.landmarks) {

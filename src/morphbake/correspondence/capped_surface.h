@@ -24,8 +24,7 @@ struct CappedSurface {
   std::vector<Eigen::Vector2i> hard_edges;  ///< a < b
 };
 
-/// @throws BakeError "correspondence.pieces", "correspondence.handles", "correspondence.holes",
-///         "correspondence.too-few-vertices"
+/// @param source  one in which topology_problems finds nothing
 CappedSurface cap_surface(const SourceSurface& source);
 
 }  // namespace morphbake

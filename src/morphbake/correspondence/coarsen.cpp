@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "morphbake/correspondence/sphere_layout.h"
-#include "morphbake/diagnostics/cancellation.h"
 
 namespace morphbake {
 namespace {

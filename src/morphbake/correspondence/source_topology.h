@@ -1,17 +1,11 @@
 #pragma once
 
-#include <map>
 #include <vector>
 
 #include "morphbake/diagnostics/problem.h"
 #include "morphbake/sources/source_surface.h"
 
 namespace morphbake {
-
-/// The next boundary vertex of each boundary vertex, against the triangles' direction.
-///
-/// @param triangles  of an oriented manifold
-std::map<int, int> boundary_steps(const Triangles& triangles);
 
 /// All that keeps one surface from being laid on a sphere.
 ///

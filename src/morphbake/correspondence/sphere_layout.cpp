@@ -7,7 +7,6 @@
 #include <limits>
 #include <numbers>
 
-#include "morphbake/diagnostics/cancellation.h"
 #include "morphbake/diagnostics/problem.h"
 
 namespace morphbake {

@@ -48,8 +48,8 @@ void lie_down(SphereLayout& layout);
 /// Takes collapses back until `count` vertices live; each new vertex goes into the kernel of its
 /// ring, and all are relaxed each time their number grew by 2/5.
 ///
-/// @throws BakeError "correspondence.no-room" when a vertex finds no place (not seen on any mesh);
-///         Cancelled
+/// @throws BakeError "correspondence.no-room" when a vertex finds no place (seen on poles of
+///         thousands of neighbours); Cancelled
 void refine(SphereLayout& layout, int count, const Observer& observer = {});
 
 /// Moves vertices to less distortion, one by one, none so far that a triangle turns.

@@ -116,24 +116,9 @@ int SphereAtlas::locate(const Vector3d& x, int start) const {
     if (found >= 0) return found;
   }
   const int found = walk_to(x, grid_[index(cell_of(x))], kLongWalk, place, across);
-  return found >= 0 ? found : locate_slowly(x);
-}
-
-int SphereAtlas::locate_slowly(const Vector3d& x) const {
-  int best = 0;
-  double best_weight = -std::numeric_limits<double>::infinity();
-  for (int f = 0; f < map->surface.triangles.rows(); ++f) {
-    // One corner at least lies before x, or the triangle is on the other side.
-    if (x.dot(corner(3 * f)) < 0 && x.dot(corner(3 * f + 1)) < 0 && x.dot(corner(3 * f + 2)) < 0) {
-      continue;
-    }
-    const double weight =
-        central_weights(x, corner(3 * f), corner(3 * f + 1), corner(3 * f + 2)).minCoeff();
-    if (weight <= best_weight) continue;
-    best_weight = weight;
-    best = f;
-  }
-  return best;
+  if (found >= 0) return found;
+  const auto all = [](int) { return true; };
+  return search_triangle(x, static_cast<int>(normals.size()), all, place);
 }
 
 Vector3d SphereAtlas::weights_at(const Vector3d& x, int triangle) const {

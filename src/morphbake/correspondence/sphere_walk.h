@@ -44,6 +44,28 @@ inline Eigen::Vector3d central_weights(const Eigen::Vector3d& x, const Eigen::Ve
   return {xb.cross(xc).dot(x), xc.cross(xa).dot(x), xa.cross(xb).dot(x)};
 }
 
+/// The triangle at `x`, or the one that misses it least, by a look at all: where a walk got lost.
+///
+/// @param is_there  is_there(triangle): whether the slot has one
+/// @param corner    as that of walk_to
+template <typename IsThere, typename Corner>
+int search_triangle(const Eigen::Vector3d& x, int slots, const IsThere& is_there,
+                    const Corner& corner) {
+  int best = -1;
+  double best_weight = 0;
+  for (int f = 0; f < slots; ++f) {
+    if (!is_there(f)) continue;
+    const Eigen::Vector3d &a = corner(3 * f), &b = corner(3 * f + 1), &c = corner(3 * f + 2);
+    // One corner at least lies before x, or the triangle is on the other side.
+    if (x.dot(a) < 0 && x.dot(b) < 0 && x.dot(c) < 0) continue;
+    const double weight = central_weights(x, a, b, c).minCoeff();
+    if (best >= 0 && weight <= best_weight) continue;
+    best_weight = weight;
+    best = f;
+  }
+  return best;
+}
+
 /// A mapped surface on which places are looked up by their place on the sphere.
 ///
 /// Positions are the surface's moved to its centre and scaled to area 1.
@@ -78,7 +100,6 @@ struct SphereAtlas {
 
  private:
   void fill_grid();
-  int locate_slowly(const Eigen::Vector3d& x) const;
 
   std::vector<int> grid_;  ///< a triangle near each cell of a cube around the sphere
 };

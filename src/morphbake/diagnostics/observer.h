@@ -24,6 +24,9 @@ struct Observer {
 
 void report(const Observer& observer, const Problem& problem);
 
+/// Throws Cancelled when the caller has asked to stop; on any thread.
+void stop_if_cancelled(const Observer& observer);
+
 /// Announces progress and throws Cancelled when the caller has asked to stop.
 void advance(const Observer& observer, const Progress& progress);
 

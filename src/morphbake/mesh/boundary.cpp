@@ -6,9 +6,6 @@
 #include <utility>
 
 namespace morphbake {
-namespace {
-
-/// Where each boundary vertex's boundary edge leads.
 std::map<int, int> boundary_edges(const Triangles& triangles) {
   std::vector<std::array<int, 4>> sides;  // the vertices sorted, then as the triangle has them
   sides.reserve(static_cast<std::size_t>(triangles.size()));
@@ -30,20 +27,28 @@ std::map<int, int> boundary_edges(const Triangles& triangles) {
   return next;
 }
 
-}  // namespace
+std::vector<std::vector<int>> boundary_loops(const Triangles& triangles) {
+  std::map<int, int> next = boundary_edges(triangles);
+  std::vector<std::vector<int>> loops;
+  while (!next.empty()) {
+    std::vector<int>& loop = loops.emplace_back();
+    for (auto at = next.begin(); at != next.end(); at = next.find(loop.back())) {
+      loop.push_back(at->second);
+      next.erase(at);
+    }
+  }
+  return loops;
+}
 
 std::vector<int> longest_boundary(const Mesh& mesh) {
-  std::map<int, int> next = boundary_edges(mesh.triangles);
   std::vector<int> longest;
   double longest_length = 0;
-  while (!next.empty()) {
-    std::vector<int> loop;
+  for (std::vector<int>& loop : boundary_loops(mesh.triangles)) {
     double length = 0;
-    for (auto at = next.begin(); at != next.end(); at = next.find(loop.back())) {
-      const auto [from, to] = *at;
-      next.erase(at);
+    int from = loop.back();
+    for (const int to : loop) {
       length += (mesh.positions.row(from) - mesh.positions.row(to)).norm();
-      loop.push_back(to);
+      from = to;
     }
     if (length <= longest_length) continue;
     longest_length = length;

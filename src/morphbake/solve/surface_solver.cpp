@@ -119,9 +119,7 @@ std::vector<Convergence> SurfaceSolver::solve(const std::vector<Goal>& goals,
     stop.tolerance = options_.tolerance * system_.diagonal();
     stop.amplification = amplification_;
     stop.max_iterations = options_.max_iterations;
-    stop.on_check = [this](const Eigen::MatrixXd&, double) {
-      if (observer_.is_cancelled && observer_.is_cancelled()) throw Cancelled();
-    };
+    stop.on_check = [this](const Eigen::MatrixXd&, double) { stop_if_cancelled(observer_); };
     for (std::size_t i = 0; i < goals.size(); ++i) {
       const Eigen::MatrixXd b = system_.residual(goals[i], Eigen::MatrixXd::Zero(x[i].rows(), 3));
       reached.push_back(iteration()(b, stop, x[i]));
