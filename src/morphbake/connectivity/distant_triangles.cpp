@@ -25,13 +25,13 @@ struct Suspect {
 template <typename Distance, typename Far>
 void spread(const Eigen::Matrix3d& corners, double bound, const Distance& distance,
             const Far& far) {
-  constexpr double kFew = 4, kMany = 1;  // bounds between points
+  constexpr double kFew = 2, kMany = 0.5;  // bounds between points
   constexpr double kClearlyNear = 0.6;   // bounds
   const double longest =
       std::max({(corners.col(0) - corners.col(1)).norm(), (corners.col(1) - corners.col(2)).norm(),
                 (corners.col(2) - corners.col(0)).norm()});
   const auto each = [&](double spacing, const auto& look) {
-    const int pieces = std::clamp(static_cast<int>(std::ceil(longest / (spacing * bound))), 2, 32);
+    const int pieces = std::clamp(static_cast<int>(std::ceil(longest / (spacing * bound))), 2, 64);
     for (int i = 0; i <= pieces; ++i) {
       for (int k = 0; i + k <= pieces; ++k) look(Vector3d(i, k, pieces - i - k) / pieces);
     }
