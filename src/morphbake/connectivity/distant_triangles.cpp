@@ -26,7 +26,7 @@ template <typename Distance, typename Far>
 void spread(const Eigen::Matrix3d& corners, double bound, const Distance& distance,
             const Far& far) {
   constexpr double kFew = 2, kMany = 0.5;  // bounds between points
-  constexpr double kClearlyNear = 0.6;   // bounds
+  constexpr double kClearlyNear = 0.6;     // bounds
   const double longest =
       std::max({(corners.col(0) - corners.col(1)).norm(), (corners.col(1) - corners.col(2)).norm(),
                 (corners.col(2) - corners.col(0)).norm()});
