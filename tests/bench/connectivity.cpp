@@ -1,4 +1,4 @@
-// connectivity project RECIPE             the plainest common connectivity, measured; JSON
+// connectivity project RECIPE             the plainest common connectivity, measured: a report
 // connectivity copy GLB FOLDER COUNT EDGE  bent copies, with new even edges where EDGE is above 0
 // connectivity finer GLB FOLDER LEVELS     a copy with every edge halved, and a little noise
 // connectivity shrink PNG PNG WIDTH        a picture, scaled down
@@ -11,11 +11,11 @@
 #include <filesystem>
 #include <iostream>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <random>
 
 #include "bench/timing.h"
 #include "morphbake/bake/load_sources.h"
+#include "morphbake/bake/remesh.h"
 #include "morphbake/bake/source_surfaces.h"
 #include "morphbake/connectivity/measure_triangulation.h"
 #include "morphbake/diagnostics/problem.h"
@@ -76,39 +76,19 @@ SharedTriangulation project(const std::vector<SourceSurface>& surfaces) {
   return shared;
 }
 
-nlohmann::json to_json(const SharedTriangulation& shared, const TriangulationQuality& quality,
-                       double seconds) {
-  nlohmann::json json = {{"vertices", shared.connectivity.vertex_count},
-                         {"seconds", seconds},
-                         {"sources", nlohmann::json::array()},
-                         {"distortion", nlohmann::json::array()}};
-  for (const SourceQuality& source : quality.sources) {
-    json["sources"].push_back({{"source", source.source},
-                               {"source_to_remesh", source.source_to_remesh},
-                               {"remesh_to_source", source.remesh_to_source},
-                               {"folds", source.folds},
-                               {"self_intersections", source.self_intersections},
-                               {"source_self_intersections", source.source_self_intersections},
-                               {"new_self_intersections", source.new_self_intersections},
-                               {"smallest_angle", source.smallest_angle},
-                               {"landmark_error", source.landmark_error}});
-  }
-  for (const MapQuality& map : quality.maps) {
-    json["distortion"].push_back({{"source", map.source},
-                                  {"mean", map.mean},
-                                  {"median", map.median},
-                                  {"percentile_99", map.percentile_99},
-                                  {"maximum", map.maximum}});
-  }
-  return json;
-}
-
 void measure_projection(const fs::path& file) {
   const Recipe recipe = read_recipe(file);
   const std::vector<SourceSurface> surfaces = own_surfaces(recipe, load_sources(recipe, {}), {});
   SharedTriangulation shared;
   const double seconds = seconds_of([&] { shared = project(surfaces); });
-  std::cout << to_json(shared, measure_triangulation(surfaces, shared), seconds).dump() << "\n";
+  RemeshReport report;
+  report.recipe = recipe.name;
+  report.connectivity = {ConnectivityMode::Remesh,
+                         shared.connectivity.vertex_count,
+                         static_cast<int>(shared.connectivity.triangles.rows()),
+                         {{"project", seconds}},
+                         measure_triangulation(surfaces, shared)};
+  std::cout << report_to_json(report);
 }
 
 SourceSurface surface_of(const fs::path& file) {

@@ -34,6 +34,14 @@ function writeRecipe(name, sources) {
   return file;
 }
 
+/** What the tables need of a report: the seconds are those of making the triangles. */
+function measures(report) {
+  const { vertices, sources, distortion, distorted_regions: regions, steps } = JSON.parse(report).connectivity;
+  const making = ['surfaces', 'sphere', 'triangulate', 'carry', 'project'];
+  const seconds = steps.filter((step) => making.includes(step.name)).reduce((sum, step) => sum + step.seconds, 0);
+  return { vertices, seconds, sources, distortion, regions };
+}
+
 /** Runs `morphbake remesh`: its report, wall seconds and peak memory, or why it failed. */
 function remesh(name, sources, sheet) {
   console.error(`bench: ${name}`);
@@ -46,21 +54,18 @@ function remesh(name, sources, sheet) {
     return { name, failed: run.stderr.split('\n').find((line) => line.includes('error:')) ?? run.stderr };
   }
   const [wall, peak] = run.stderr.trim().split('\n').at(-1).split(' ').map(Number);
-  const made = JSON.parse(readFileSync(report, 'utf8')).connectivity;
-  const seconds = made.steps.filter((step) => ['surfaces', 'sphere', 'triangulate', 'carry'].includes(step.name))
-    .reduce((sum, step) => sum + step.seconds, 0);
+  const made = measures(readFileSync(report, 'utf8'));
   if (sheet) {
     const width = Object.keys(sources).length > 2 ? '560' : '760';
     help('shrink', join(folder, `${name}.connectivity.png`), join(docs, 'connectivity', `${name}.png`), width);
   }
-  const { vertices, sources: measured, distortion, distorted_regions: regions } = made;
-  return { name, vertices, seconds, wall, peak_mb: peak / 1024, sources: measured, distortion, regions };
+  return { name, wall, peak_mb: peak / 1024, ...made };
 }
 
 /** A case for the tables of quality: the remesh and the plainest alternative. */
 function compare(name, sources, remark) {
   const made = remesh(name, sources, true);
-  const projected = JSON.parse(help('project', writeRecipe(name, sources)));
+  const projected = measures(help('project', writeRecipe(name, sources)));
   return { ...made, remark, projected };
 }
 

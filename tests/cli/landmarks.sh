@@ -19,21 +19,17 @@ run 2 landmarks show "$shapes/face.glb" --landmarks "$shapes/cow.landmarks.json"
 stderr_has "cow.landmarks.json#/landmarks/nose: error:"
 stderr_has "is this the landmark file of another mesh, or of another scale?"
 stderr_has "[landmarks.off-surface]"
-echo '{"version": 1, "landmarks": {"a": {"vertex": 999999}, "b": {"face": 0}}}' >broken.json
-run 2 landmarks show "$shapes/face.glb" --landmarks broken.json -o show.png
-stderr_has "[landmarks.missing-field]"
-echo '{"version": 1, "landmarks": {"a": {"vertex": 999999}}}' >broken.json
-run 2 landmarks show "$shapes/face.glb" --landmarks broken.json -o show.png
-stderr_has "[landmarks.out-of-range]"
-echo '{"version": 1, "landmarks": {"a": {"vertex": 0}, "b": {"vertex": 0}}}' >broken.json
-run 2 landmarks show "$shapes/face.glb" --landmarks broken.json -o show.png
-stderr_has "[landmarks.same-point]"
-echo '{"version": 1, "landmarks": {"a": {"vertex": 0}, "a": {"vertex": 1}}}' >broken.json
-run 2 landmarks show "$shapes/face.glb" --landmarks broken.json -o show.png
-stderr_has "[json.duplicate-key]"
-echo '{"version": 1, "landmarks": {' >broken.json
-run 2 landmarks show "$shapes/face.glb" --landmarks broken.json -o show.png
-stderr_has "[json.syntax]"
+# A landmark file that is wrong: refused FILE'S_TEXT CODE
+refused() {
+  echo "$1" >broken.json
+  run 2 landmarks show "$shapes/face.glb" --landmarks broken.json -o show.png
+  stderr_has "[$2]"
+}
+refused '{"version": 1, "landmarks": {"a": {"vertex": 999999}, "b": {"face": 0}}}' landmarks.missing-field
+refused '{"version": 1, "landmarks": {"a": {"vertex": 999999}}}' landmarks.out-of-range
+refused '{"version": 1, "landmarks": {"a": {"vertex": 0}, "b": {"vertex": 0}}}' landmarks.same-point
+refused '{"version": 1, "landmarks": {"a": {"vertex": 0}, "a": {"vertex": 1}}}' json.duplicate-key
+refused '{"version": 1, "landmarks": {' json.syntax
 rm broken.json
 run 4 landmarks suggest "$shapes/cow.landmarks.json" "$shapes/pig.glb" -o out
 stderr_has "[gltf.not-gltf]"
