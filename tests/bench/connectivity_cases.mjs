@@ -26,7 +26,7 @@ export const pairs = [
     file: 'fish--plane',
     remark:
       'Red fins and wings: the fish\'s small fins become long wings, and the engines, which have no ' +
-      'landmarks, are drawn out of the fish\'s flank.',
+      'landmarks, are drawn out of the fish\'s flank. A red stripe where the high, short body becomes a long tube.',
   },
   {
     file: 'penguin--mh_male_baby',
@@ -44,8 +44,8 @@ export const pairs = [
   {
     file: 'mhface_male_young--ict_face',
     remark:
-      'Grey on the face; orange at the rim, which is jagged on the first and smooth on the second: a few ' +
-      'triangles there are nearly lines.',
+      'Grey on the face; yellow at the corners of the eyes and at the rim, which is jagged on the first and smooth ' +
+      'on the second; the second one\'s neck grows out of a short stub.',
   },
 ];
 

@@ -24,7 +24,7 @@ LayerTriangle layer_triangle(const Layer& layer, int a, int b, int c) {
 }
 
 double triangle_cost(const std::vector<LayerTriangle>& layers, int& folds) {
-  constexpr double kFold = 1000;  // 20 leaves ten times as many
+  constexpr double kFold = 1000;  // 20 leaves two to seven times as many
   constexpr double kMost = 1e4;   // of one term: a triangle without area is bad enough
   Vector3d mean = Vector3d::Zero();
   for (const LayerTriangle& layer : layers) mean += layer.squared_lengths;

@@ -28,7 +28,7 @@ struct SuggestedLandmarks {
 /// Warns "landmarks.mirrored" when the second is a mirror image of the first,
 /// "landmarks.uncertain" when few tips correspond, "landmarks.several-pieces".
 /// @throws BakeError "landmarks.nothing-found"; Cancelled
-/// @cost   seconds for half a million vertices
+/// @cost   half a minute for 508k and 187k vertices
 SuggestedLandmarks suggest_landmarks(const SourceSurface& a, const SourceSurface& b,
                                      const SuggestOptions& options, const Observer& observer);
 
