@@ -44,7 +44,6 @@ struct TriangulationQuality {
 /// @throws Cancelled
 /// @cost   4 s for two sources of 3k and 8k vertices on 7k new ones, 30 s for two of 200k; mostly
 /// CGAL's
-///         Hausdorff distances
 TriangulationQuality measure_triangulation(const std::vector<SourceSurface>& surfaces,
                                            const SharedTriangulation& triangulation,
                                            const Observer& observer = {});
