@@ -42,8 +42,7 @@ struct TriangulationQuality {
 
 /// @param surfaces  those that the triangulation lies on
 /// @throws Cancelled
-/// @cost   4 s for two sources of 3k and 8k vertices on 7k new ones, 30 s for two of 200k; mostly
-/// CGAL's
+/// @cost   4 s for two sources of 3k and 8k vertices on 7k new ones, 30 s for two of 200k
 TriangulationQuality measure_triangulation(const std::vector<SourceSurface>& surfaces,
                                            const SharedTriangulation& triangulation,
                                            const Observer& observer = {});
