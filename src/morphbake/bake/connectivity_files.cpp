@@ -117,6 +117,20 @@ void append_number(std::string& bytes, Number number) {  // this machine is litt
 
 void align(std::string& bytes) { bytes.resize((bytes.size() + 7) / 8 * 8, '\0'); }
 
+/// Barycentric coordinates by the corners of the file, against which the surface may be wound.
+Eigen::Vector3d barycentric_in_file(const SourceMesh& source, const SourceSurface& surface,
+                                    const SurfacePoint& point, int triangle_in_file) {
+  Eigen::Vector3d weights = Eigen::Vector3d::Zero();
+  for (int k = 0; k < 3; ++k) {
+    const int corner = source.triangles(triangle_in_file, k);
+    for (int j = 0; j < 3; ++j) {
+      const int there = surface.render_of_corner[static_cast<std::size_t>(3 * point.triangle + j)];
+      if (there == corner) weights(k) = point.barycentric(j);
+    }
+  }
+  return weights;
+}
+
 void append_map(const SourceMesh& source, const SourceSurface& surface,
                 const std::vector<SurfacePoint>& points, const FileVertices& vertices,
                 std::string& bytes) {
@@ -125,24 +139,18 @@ void append_map(const SourceMesh& source, const SourceSurface& surface,
   bytes += source.name;
   align(bytes);
   const std::vector<int> in_file = triangles_in_file(surface, source);
+  const auto triangle_of = [&](int vertex) {
+    return in_file[static_cast<std::size_t>(points[static_cast<std::size_t>(vertex)].triangle)];
+  };
   for (const int vertex : vertices.vertex) {
-    const SurfacePoint& point = points[static_cast<std::size_t>(vertex)];
-    append_number(bytes,
-                  static_cast<std::uint32_t>(in_file[static_cast<std::size_t>(point.triangle)]));
+    append_number(bytes, static_cast<std::uint32_t>(triangle_of(vertex)));
   }
   align(bytes);
   for (const int vertex : vertices.vertex) {
     const SurfacePoint& point = points[static_cast<std::size_t>(vertex)];
-    const auto f = static_cast<std::size_t>(point.triangle);
-    // The surface may be wound against the file; the file's corners count.
-    for (int k = 0; k < 3; ++k) {
-      const int corner = source.triangles(in_file[f], k);
-      for (std::size_t j = 0; j < 3; ++j) {
-        if (surface.render_of_corner[3 * f + j] == corner) {
-          append_number(bytes, point.barycentric(static_cast<Eigen::Index>(j)));
-        }
-      }
-    }
+    const Eigen::Vector3d weights =
+        barycentric_in_file(source, surface, point, triangle_of(vertex));
+    for (int k = 0; k < 3; ++k) append_number(bytes, weights(k));
   }
 }
 
