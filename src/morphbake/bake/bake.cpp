@@ -6,12 +6,20 @@
 #include "morphbake/bake/places.h"
 #include "morphbake/bake/previews.h"
 #include "morphbake/bake/stage_clock.h"
+#include "morphbake/sources/align_sources.h"
 #include "morphbake/transition/regions.h"
 
 namespace morphbake {
 namespace {
 
 std::filesystem::path stem_of(std::filesystem::path file) { return file.replace_extension(); }
+
+/// The sources where the recipe puts them, and the recipe with its places there.
+AlignedSources load_aligned(const Recipe& asked, const Observer& observer) {
+  std::vector<SourceMesh> loaded = load_sources(asked, observer);
+  Recipe recipe = with_positions(asked, loaded);
+  return align_sources(std::move(recipe), std::move(loaded), observer);
+}
 
 }  // namespace
 
@@ -22,8 +30,7 @@ BakeReport bake(const Recipe& asked, const BakeOptions& options, const Observer&
   StageClock clock(observer);
 
   clock.start("sources");
-  std::vector<SourceMesh> loaded = load_sources(asked, observer);
-  const Recipe recipe = with_positions(asked, loaded);
+  auto [recipe, loaded] = load_aligned(asked, observer);
   clock.start("connectivity");
   ConnectedSources connected = connect_sources(recipe, std::move(loaded), Measuring::On, observer);
   const std::vector<SourceMesh>& sources = connected.sources;
@@ -65,8 +72,7 @@ BakeReport bake(const Recipe& asked, const BakeOptions& options, const Observer&
 }
 
 void validate(const Recipe& asked, const BakeOptions& options, const Observer& observer) {
-  std::vector<SourceMesh> loaded = load_sources(asked, observer);
-  const Recipe recipe = with_positions(asked, loaded);
+  auto [recipe, loaded] = load_aligned(asked, observer);
   const ConnectedSources connected =
       connect_sources(recipe, std::move(loaded), Measuring::Off, observer);
   const MorphableMesh mesh = share_connectivity(connected.sources);

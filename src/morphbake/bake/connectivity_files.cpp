@@ -124,8 +124,10 @@ Eigen::Vector3d barycentric_in_file(const SourceMesh& source, const SourceSurfac
   for (int k = 0; k < 3; ++k) {
     const int corner = source.triangles(triangle_in_file, k);
     for (int j = 0; j < 3; ++j) {
-      const int there = surface.render_of_corner[static_cast<std::size_t>(3 * point.triangle + j)];
-      if (there == corner) weights(k) = point.barycentric(j);
+      const int on_surface = 3 * point.triangle + j;
+      if (surface.render_of_corner[static_cast<std::size_t>(on_surface)] == corner) {
+        weights(k) = point.barycentric(j);
+      }
     }
   }
   return weights;

@@ -9,6 +9,7 @@
 #include "morphbake/bake/load_sources.h"
 #include "morphbake/files/files.h"
 #include "morphbake/json/json.h"
+#include "morphbake/sources/align_sources.h"
 
 namespace morphbake {
 namespace {
@@ -65,17 +66,17 @@ std::vector<fs::path> remeshed_files(const Recipe& recipe, const fs::path& folde
   return files;
 }
 
-RemeshReport remesh(const Recipe& recipe, const BakeOptions& options, const fs::path& folder,
+RemeshReport remesh(const Recipe& asked, const BakeOptions& options, const fs::path& folder,
                     SheetRequest sheet, const Observer& caller) {
   RemeshReport result;
-  result.recipe = recipe.name;
-  result.files = remeshed_files(recipe, folder, sheet);
-  check_request(recipe, result.files);
+  result.recipe = asked.name;
+  result.files = remeshed_files(asked, folder, sheet);
+  check_request(asked, result.files);
   check_writable(result.files);
   const Observer observer = recording(caller, result.problems);
   StageClock clock(observer);
   clock.start("sources");
-  const std::vector<SourceMesh> sources = load_sources(recipe, observer);
+  const auto [recipe, sources] = align_sources(asked, load_sources(asked, observer), observer);
   const RemeshedSources remeshed = remesh_sources(recipe, sources, clock, observer);
   clock.start("measure");
   ConnectivityReport& connectivity = result.connectivity;

@@ -40,8 +40,9 @@ CornerSurface corner_surface(const MorphableMesh& shared, const SourceMesh& firs
     const int f = in_file[c / 3];
     int k = 0;
     while (first.triangles(f, k) != shared.render_of_corner[c]) ++k;
-    corners.file_corner.push_back(3 * f + k);
-    corners.vertex_of_corner[static_cast<std::size_t>(3 * f + k)] =
+    const int corner = 3 * f + k;
+    corners.file_corner.push_back(corner);
+    corners.vertex_of_corner[static_cast<std::size_t>(corner)] =
         shared.connectivity.triangles.data()[c];
   }
   return corners;

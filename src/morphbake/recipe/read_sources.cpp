@@ -97,6 +97,24 @@ void read_source_landmarks(Reading& reading, const Json& source, const std::stri
   ref.landmarks = try_landmarks(reading, beside, ref.landmarks_at.file);
 }
 
+Align align_of(const Json& name) {
+  if (name == "translation") return Align::Translation;
+  if (name == "rigid") return Align::Rigid;
+  if (name == "similarity") return Align::Similarity;
+  if (name == "affine") return Align::Affine;
+  return Align::None;
+}
+
+/// The first source stays where it is: others are aligned to it.
+void read_align(Reading& reading, const Json& source, const std::string& pointer, SourceRef& ref) {
+  if (!source.is_object() || !source.contains("align")) return;
+  ref.align = align_of(source["align"]);
+  if (ref.align == Align::None || !reading.recipe.sources.empty()) return;
+  complain(reading, "recipe.conflicting-fields", pointer + "/align",
+           fmt::format("\"{}\" is the first source, onto which the others are moved", ref.name),
+           "leave it out here, and write it at the sources that shall move");
+}
+
 }  // namespace
 
 void read_sources(Reading& reading) {
@@ -110,6 +128,7 @@ void read_sources(Reading& reading) {
                  is_object ? pointer + "/file" : pointer);
     SourceRef ref{name, absolute_file(reading, file), {}, {}};
     read_source_landmarks(reading, source, pointer, ref);
+    read_align(reading, source, pointer, ref);
     reading.recipe.sources.push_back(std::move(ref));
   }
 }

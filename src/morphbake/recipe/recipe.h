@@ -15,11 +15,15 @@ namespace morphbake {
 /// Shares of the sources in a mix, one a source in the recipe's order. Sum 1, each in [0, 1].
 using Shares = std::vector<double>;
 
+/// How a source is moved onto the first one before anything else.
+enum class Align { None, Translation, Rigid, Similarity, Affine };
+
 struct SourceRef {
   std::string name;
   std::filesystem::path file;  ///< absolute
   std::vector<Landmark> landmarks;
   Location landmarks_at;  ///< of the object whose fields the landmarks are, for messages
+  Align align = Align::None;
 };
 
 /// How the sources get one connectivity.

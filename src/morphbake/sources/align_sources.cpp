@@ -1,0 +1,212 @@
+#include "morphbake/sources/align_sources.h"
+
+#include <fmt/core.h>
+
+#include <Eigen/Geometry>
+#include <Eigen/SVD>
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "morphbake/json/json.h"
+#include "morphbake/mesh/measures.h"
+#include "morphbake/sources/places.h"
+
+namespace morphbake {
+namespace {
+
+using Eigen::Affine3d;
+using Eigen::Matrix3Xd;
+using Eigen::Vector3d;
+
+constexpr double kFlat = 1e-6;     // of the largest extent: no direction at all
+constexpr double kUnlikeSize = 4;  // times
+
+/// Landmarks of two sources that have one name; columns correspond.
+struct CommonLandmarks {
+  Matrix3Xd from;
+  Matrix3Xd to;
+};
+
+std::vector<Vector3d> landmark_positions(const SourceMesh& source, const SourceRef& ref) {
+  std::vector<Vector3d> positions;
+  for (const Landmark& landmark : ref.landmarks) {
+    Location location = ref.landmarks_at;
+    location.pointer = child_pointer(location.pointer, landmark.name);
+    positions.push_back(scene_position(source, landmark.at, location));
+  }
+  return positions;
+}
+
+CommonLandmarks common_landmarks(const SourceMesh& from, const SourceRef& from_ref,
+                                 const SourceMesh& to, const SourceRef& to_ref) {
+  const std::vector<Vector3d> from_at = landmark_positions(from, from_ref);
+  const std::vector<Vector3d> to_at = landmark_positions(to, to_ref);
+  std::vector<std::pair<std::size_t, std::size_t>> pairs;
+  for (std::size_t i = 0; i < from_at.size(); ++i) {
+    for (std::size_t j = 0; j < to_at.size(); ++j) {
+      if (from_ref.landmarks[i].name == to_ref.landmarks[j].name) pairs.emplace_back(i, j);
+    }
+  }
+  CommonLandmarks common;
+  common.from.resize(3, static_cast<Eigen::Index>(pairs.size()));
+  common.to.resize(3, static_cast<Eigen::Index>(pairs.size()));
+  for (std::size_t p = 0; p < pairs.size(); ++p) {
+    common.from.col(static_cast<Eigen::Index>(p)) = from_at[pairs[p].first];
+    common.to.col(static_cast<Eigen::Index>(p)) = to_at[pairs[p].second];
+  }
+  return common;
+}
+
+/// How many directions points extend in: 0 to 3.
+int dimension(const Matrix3Xd& points) {
+  const Matrix3Xd centred = points.colwise() - points.rowwise().mean();
+  const Eigen::JacobiSVD<Matrix3Xd> svd(centred);
+  const double largest = svd.singularValues()(0);
+  if (!(largest > 0)) return 0;
+  return static_cast<int>((svd.singularValues().array() > kFlat * largest).count());
+}
+
+/// Where a surface stands and how large it is.
+struct Extent {
+  Vector3d centre;    ///< of area
+  double radius = 0;  ///< root mean square distance from it
+};
+
+Extent extent_of(const SourceMesh& source) {
+  const Eigen::VectorXd areas = vertex_areas(source.positions, source.triangles);
+  const double whole = areas.sum();
+  Extent extent;
+  extent.centre = (source.positions.transpose() * areas) / whole;
+  const Eigen::VectorXd squares =
+      (source.positions.rowwise() - extent.centre.transpose()).rowwise().squaredNorm();
+  extent.radius = std::sqrt(squares.dot(areas) / whole);
+  return extent;
+}
+
+Affine3d map_of_extents(Align align, const SourceMesh& from, const SourceMesh& to) {
+  const Extent a = extent_of(from), b = extent_of(to);
+  Affine3d map = Affine3d::Identity();
+  map.translate(b.centre);
+  if (align == Align::Similarity) map.scale(b.radius / a.radius);
+  map.translate(-a.centre);
+  return map;
+}
+
+Affine3d affine_map(const CommonLandmarks& marks) {
+  const Vector3d from_centre = marks.from.rowwise().mean(), to_centre = marks.to.rowwise().mean();
+  const Matrix3Xd from = marks.from.colwise() - from_centre;
+  const Matrix3Xd to = marks.to.colwise() - to_centre;
+  Affine3d map = Affine3d::Identity();
+  map.linear() = (to * from.transpose()) * (from * from.transpose()).inverse();
+  map.translation() = to_centre - map.linear() * from_centre;
+  return map;
+}
+
+Affine3d landmark_map(Align align, const CommonLandmarks& marks) {
+  if (align == Align::Affine) return affine_map(marks);
+  Affine3d map = Affine3d::Identity();
+  if (align == Align::Translation) {
+    map.translation() = marks.to.rowwise().mean() - marks.from.rowwise().mean();
+  } else {
+    map.matrix() = Eigen::umeyama(marks.from, marks.to, align == Align::Similarity);
+  }
+  return map;
+}
+
+[[noreturn]] void refuse(const Recipe& recipe, std::size_t s, const std::string& message,
+                         const std::string& hint) {
+  throw BakeError(
+      Problem{Severity::Error,
+              "landmarks.cannot-align",
+              {recipe.file.string(), child_pointer("/sources", recipe.sources[s].name) + "/align"},
+              message,
+              hint});
+}
+
+/// The map of source `s` onto the first one.
+Affine3d alignment(const Recipe& recipe, const std::vector<SourceMesh>& sources, std::size_t s) {
+  const Align align = recipe.sources[s].align;
+  const CommonLandmarks marks =
+      common_landmarks(sources[s], recipe.sources[s], sources[0], recipe.sources[0]);
+  const bool is_affine = align == Align::Affine;
+  if (marks.from.cols() < 3 && !is_affine) return map_of_extents(align, sources[s], sources[0]);
+  if (align != Align::Translation) {
+    const int needed = is_affine ? 3 : 2;
+    if (marks.from.cols() <= needed || dimension(marks.from) < needed ||
+        dimension(marks.to) < needed) {
+      refuse(recipe, s,
+             fmt::format("{} landmarks that \"{}\" has in common with \"{}\" do not say how to "
+                         "align them",
+                         marks.from.cols(), recipe.sources[s].name, recipe.sources[0].name),
+             is_affine ? "give four that are not in one plane, or write \"similarity\""
+                       : "give one that is not in line with the others, or write \"translation\"");
+    }
+  }
+  const Affine3d map = landmark_map(align, marks);
+  if (!map.matrix().allFinite() || map.linear().determinant() <= 0) {
+    refuse(recipe, s,
+           fmt::format("the landmarks of \"{}\" would be mirrored or flattened to meet those of "
+                       "\"{}\"",
+                       recipe.sources[s].name, recipe.sources[0].name),
+           "see whether left and right are exchanged, or write \"similarity\"");
+  }
+  return map;
+}
+
+void move_positions(Recipe& recipe, std::size_t s, const Affine3d& map) {
+  const auto move = [&](Place& place) {
+    if (auto* at = std::get_if<Vector3d>(&place)) *at = map * *at;
+  };
+  const int source = static_cast<int>(s);
+  for (Landmark& landmark : recipe.sources[s].landmarks) move(landmark.at);
+  for (RegionOfInterest& region : recipe.regions) {
+    auto* ball = std::get_if<BallRegion>(&region.shape);
+    if (ball != nullptr && ball->source == source) move(ball->centre);
+  }
+  const bool has_place =
+      recipe.gauge.kind == Gauge::Kind::Landmark || recipe.gauge.kind == Gauge::Kind::Anchor;
+  if (has_place && recipe.gauge.source == source) move(recipe.gauge.at);
+}
+
+/// Tells of a source that one would hardly see beside the first one.
+void warn_of_unlike(const Recipe& recipe, const std::vector<SourceMesh>& sources, std::size_t s,
+                    const Observer& observer) {
+  const Extent first = extent_of(sources[0]), other = extent_of(sources[s]);
+  const double ratio = other.radius / first.radius;
+  const double away = (other.centre - first.centre).norm() / std::max(first.radius, other.radius);
+  std::string message;
+  if (ratio > kUnlikeSize || ratio < 1 / kUnlikeSize) {
+    message = fmt::format("\"{}\" is {:.3g} times as large as \"{}\"", recipe.sources[s].name,
+                          ratio, recipe.sources[0].name);
+  } else if (away > kUnlikeSize) {
+    message = fmt::format("\"{}\" stands {:.3g} times its own radius away from \"{}\"",
+                          recipe.sources[s].name, away, recipe.sources[0].name);
+  }
+  if (message.empty()) return;
+  report(observer, {Severity::Warning,
+                    "sources.unlike",
+                    {recipe.file.string(), child_pointer("/sources", recipe.sources[s].name)},
+                    message,
+                    "if that is not meant, write \"align\": \"similarity\" beside its \"file\""});
+}
+
+}  // namespace
+
+AlignedSources align_sources(Recipe recipe, std::vector<SourceMesh> sources,
+                             const Observer& observer) {
+  for (std::size_t s = 1; s < sources.size(); ++s) {
+    if (recipe.sources[s].align == Align::None) {
+      warn_of_unlike(recipe, sources, s, observer);
+      continue;
+    }
+    const Affine3d map = alignment(recipe, sources, s);
+    Positions& positions = sources[s].positions;
+    positions =
+        ((positions * map.linear().transpose()).rowwise() + map.translation().transpose()).eval();
+    move_positions(recipe, s, map);
+  }
+  return {std::move(recipe), std::move(sources)};
+}
+
+}  // namespace morphbake
