@@ -44,15 +44,6 @@ void spread(const Eigen::Matrix3d& corners, double bound, const Distance& distan
   });
 }
 
-Mesh source_mesh(const SphereAtlas& atlas) {
-  Mesh mesh{Positions(static_cast<Eigen::Index>(atlas.positions.size()), 3),
-            atlas.map->surface.triangles};
-  for (std::size_t v = 0; v < atlas.positions.size(); ++v) {
-    mesh.positions.row(static_cast<Eigen::Index>(v)) = atlas.positions[v];
-  }
-  return mesh;
-}
-
 /// Points of the triangulation that the sphere puts further than `bound` from the source.
 std::vector<Suspect> suspects_of_triangulation(const LayeredTriangulation& t, const Layer& layer,
                                                double bound) {
@@ -129,8 +120,7 @@ std::vector<int> distant_triangles(const LayeredTriangulation& t, std::size_t la
   const double length = bound * on.atlas.diagonal;
   std::vector<int> triangles;
   append_guilty(
-      suspects_of_triangulation(t, on, length), [&] { return source_mesh(on.atlas); }, length,
-      triangles);
+      suspects_of_triangulation(t, on, length), [&] { return on.atlas.mesh(); }, length, triangles);
   append_guilty(
       suspects_of_source(t, on, points.triangle[layer], length),
       [&] { return lifted_mesh(t, on, surface_triangles(t)); }, length, triangles);

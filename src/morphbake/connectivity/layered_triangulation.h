@@ -5,6 +5,7 @@
 #include <unordered_set>
 #include <vector>
 
+#include "morphbake/connectivity/shared_triangulation.h"
 #include "morphbake/correspondence/sphere_walk.h"
 #include "morphbake/mesh/closed_mesh.h"
 
@@ -125,6 +126,10 @@ bool can_collapse(const LayeredTriangulation& t, int h);
 
 /// Collapses an edge that can be collapsed.
 void collapse(LayeredTriangulation& t, int h);
+
+/// The triangulation by itself: vertices in the order of their slots, triangles in that of
+/// surface_triangles.
+SharedTriangulation shared_triangulation(const LayeredTriangulation& t);
 
 /// The coarsest triangulation: that of the first source, simplified as far as the maps allow.
 ///

@@ -17,61 +17,6 @@ constexpr double kPi = std::numbers::pi;
 constexpr double kHausdorffBound = 1e-4;  // fraction of the diagonal by which it may be too small
 constexpr std::size_t kListedRegions = 20;
 
-Eigen::RowVector3d face_normal(const Mesh& mesh, int f) {
-  const Eigen::RowVector3d a = mesh.positions.row(mesh.triangles(f, 0));
-  const Eigen::RowVector3d b = mesh.positions.row(mesh.triangles(f, 1));
-  const Eigen::RowVector3d c = mesh.positions.row(mesh.triangles(f, 2));
-  return (b - a).cross(c - a);
-}
-
-/// The source's triangle nearest to the middle of each triangle.
-std::vector<int> triangles_below(const Mesh& source, const Mesh& remesh) {
-  Positions centres = Positions::Zero(remesh.triangles.rows(), 3);
-  for (int f = 0; f < remesh.triangles.rows(); ++f) {
-    for (int k = 0; k < 3; ++k) centres.row(f) += remesh.positions.row(remesh.triangles(f, k)) / 3;
-  }
-  std::vector<int> below;
-  for (const SurfacePoint& point : closest_points(source, centres)) below.push_back(point.triangle);
-  return below;
-}
-
-/// Sum of the unit normals of a source where the corners of a triangle lie on it.
-Eigen::RowVector3d normal_at_corners(const Mesh& source, const std::vector<SurfacePoint>& on_source,
-                                     const Eigen::RowVector3i& corners) {
-  Eigen::RowVector3d sum = Eigen::RowVector3d::Zero();
-  for (const int v : corners) {
-    sum += face_normal(source, on_source[static_cast<std::size_t>(v)].triangle).normalized();
-  }
-  return sum;
-}
-
-/// The nearest surface alone would not do: where two sheets lie close to one another, as lips do,
-/// it may be the other one.
-int count_folds(const Mesh& source, const std::vector<SurfacePoint>& on_source, const Mesh& remesh,
-                const std::vector<int>& below) {
-  int folds = 0;
-  for (int f = 0; f < remesh.triangles.rows(); ++f) {
-    const Eigen::RowVector3d normal = face_normal(remesh, f);
-    const int under = below[static_cast<std::size_t>(f)];
-    folds += normal.dot(face_normal(source, under)) < 0 &&
-             normal.dot(normal_at_corners(source, on_source, remesh.triangles.row(f))) < 0;
-  }
-  return folds;
-}
-
-/// Pairs that do not both lie where the source's own triangles cut one another.
-int count_new(const std::vector<std::pair<int, int>>& pairs, const Mesh& source,
-              const std::vector<int>& below) {
-  if (pairs.empty()) return 0;
-  const std::vector<char> near_cuts = triangles_near_cuts(source);
-  const auto is_near = [&](int f) {
-    return near_cuts[static_cast<std::size_t>(below[static_cast<std::size_t>(f)])] != 0;
-  };
-  return static_cast<int>(std::count_if(pairs.begin(), pairs.end(), [&](const auto& pair) {
-    return !is_near(pair.first) || !is_near(pair.second);
-  }));
-}
-
 double smallest_angle(const Mesh& mesh) {
   double smallest = kPi;
   for (int f = 0; f < mesh.triangles.rows(); ++f) {
@@ -133,11 +78,15 @@ SourceQuality measure_source(const std::vector<SourceSurface>& surfaces,
   quality.source = source.name;
   quality.source_to_remesh = hausdorff_distance(source.mesh, remesh, bound) / diagonal;
   quality.remesh_to_source = hausdorff_distance(remesh, source.mesh, bound) / diagonal;
-  const std::vector<int> below = triangles_below(source.mesh, remesh);
-  quality.folds = count_folds(source.mesh, triangulation.on_source[s], remesh, below);
+  quality.folds =
+      static_cast<int>(folded_triangles(source.mesh, remesh, triangulation.on_source[s]).size());
   const std::vector<std::pair<int, int>> pairs = self_intersections(remesh);
   quality.self_intersections = static_cast<int>(pairs.size());
-  quality.new_self_intersections = count_new(pairs, source.mesh, below);
+  if (!pairs.empty()) {
+    const std::vector<char> near_cuts = triangles_near_cuts(source.mesh);
+    quality.new_self_intersections =
+        static_cast<int>(new_cuts(pairs, remesh, source.mesh, near_cuts).size());
+  }
   quality.source_self_intersections = static_cast<int>(self_intersections(source.mesh).size());
   quality.smallest_angle = smallest_angle(remesh);
   quality.longest_edge = longest_edge(remesh) / diagonal;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <limits>
 #include <optional>
+#include <utility>
 
 #include "morphbake/connectivity/distant_triangles.h"
 #include "morphbake/connectivity/relax.h"
@@ -15,41 +16,44 @@
 namespace morphbake {
 namespace {
 
-constexpr int kRounds = 20;
-constexpr int kPatience = 6;        // rounds that may be worse than the best
+constexpr int kRounds = 30;
+constexpr int kPatience = 10;       // rounds that may be worse than the best
 constexpr double kBadTriangle = 5;  // triangle_cost
 constexpr double kHopeless = 40;    // the same, of folds and of triangles that are nearly lines
 constexpr double kShare = 0.9;      // of max_error, since only some points are looked at
 
 std::size_t index(int i) { return static_cast<std::size_t>(i); }
 
-/// Triangles that cut others on one source where the source itself does not.
-std::vector<int> newly_cut(const LayeredTriangulation& t, const Layer& layer,
-                           std::vector<char>& near_source_cut) {
-  const std::vector<int> slots = surface_triangles(t);
-  const std::vector<std::pair<int, int>> pairs = self_intersections(lifted_mesh(t, layer, slots));
-  std::vector<int> cut;
-  if (pairs.empty()) return cut;
-  if (near_source_cut.empty()) near_source_cut = triangles_near_cuts(layer.atlas.map->surface);
-  const auto is_near_cut = [&](int f) {
-    const int below =
-        triangle_below(layer, t.mesh.from(3 * f), t.mesh.from(3 * f + 1), t.mesh.from(3 * f + 2));
-    return near_source_cut[index(below)] != 0;
-  };
-  for (const auto& [i, j] : pairs) {
-    const int f = slots[index(i)], g = slots[index(j)];
-    if (!is_near_cut(f) || !is_near_cut(g)) cut.insert(cut.end(), {f, g});
+/// A source as the report measures it; where it cuts itself is found out when it matters.
+struct Measured {
+  Mesh source;
+  std::vector<char> near_cuts;
+};
+
+/// Folded and newly cut triangles of one layer, by the checks of measure_triangulation.
+std::vector<int> faulty_triangles(const LayeredTriangulation& t, const SharedTriangulation& shared,
+                                  std::size_t layer, Measured& measured) {
+  const Mesh remesh{shared.geometries[layer], shared.connectivity.triangles};
+  std::vector<int> faulty = folded_triangles(measured.source, remesh, shared.on_source[layer]);
+  const std::vector<std::pair<int, int>> pairs = self_intersections(remesh);
+  if (!pairs.empty() && measured.near_cuts.empty()) {
+    measured.near_cuts = triangles_near_cuts(measured.source);
   }
-  return cut;
+  for (const auto& [f, g] : new_cuts(pairs, remesh, measured.source, measured.near_cuts)) {
+    faulty.insert(faulty.end(), {f, g});
+  }
+  const std::vector<int> slots = surface_triangles(t);
+  for (int& f : faulty) f = slots[index(f)];
+  return faulty;
 }
 
 /// Folded, degenerate, newly cut and distant triangles of all layers; some several times.
 std::vector<int> broken_triangles(const LayeredTriangulation& t, const SourcePoints& points,
-                                  double max_error,
-                                  std::vector<std::vector<char>>& near_source_cut) {
+                                  double max_error, std::vector<Measured>& measured) {
+  const SharedTriangulation shared = shared_triangulation(t);
   std::vector<std::vector<int>> found(t.layers.size());
   tbb::parallel_for(std::size_t{0}, t.layers.size(), [&](std::size_t s) {
-    found[s] = newly_cut(t, t.layers[s], near_source_cut[s]);
+    found[s] = faulty_triangles(t, shared, s, measured[s]);
     const std::vector<int> distant = distant_triangles(t, s, points, kShare * max_error);
     found[s].insert(found[s].end(), distant.begin(), distant.end());
   });
@@ -100,12 +104,16 @@ void split_worst_edges(LayeredTriangulation& t, const std::vector<int>& triangle
 
 void mend(LayeredTriangulation& t, SourcePoints& points, double max_error, int vertex_limit) {
   const double tolerance = 0.5 * max_error;
-  std::vector<std::vector<char>> near_source_cut(t.layers.size());
+  std::vector<Measured> measured;
+  for (const Layer& layer : t.layers) {
+    const SphericalMap& map = *layer.atlas.map;  // its first vertices are the source's
+    measured.push_back({{map.surface.positions, map.source_triangles}, {}});
+  }
   std::optional<LayeredTriangulation> best;
   std::size_t fewest = std::numeric_limits<std::size_t>::max();
   int since_best = 0;
   for (int round = 0; round < kRounds; ++round) {
-    const std::vector<int> broken = broken_triangles(t, points, max_error, near_source_cut);
+    const std::vector<int> broken = broken_triangles(t, points, max_error, measured);
     ++since_best;
     if (broken.size() < fewest) {
       best = t;

@@ -5,10 +5,13 @@
 #include <CGAL/Polygon_mesh_processing/self_intersections.h>
 #include <CGAL/Surface_mesh.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <iterator>
 #include <utility>
 #include <vector>
+
+#include "morphbake/mesh/closest_point.h"
 
 namespace morphbake {
 namespace {
@@ -33,11 +36,53 @@ Surface to_cgal(const Mesh& mesh) {
   return surface;
 }
 
+Eigen::RowVector3d area_normal(const Mesh& mesh, int triangle) {
+  const auto corner = [&](int k) -> Eigen::RowVector3d {
+    return mesh.positions.row(mesh.triangles(triangle, k));
+  };
+  return (corner(1) - corner(0)).cross(corner(2) - corner(0));
+}
+
+/// The source's triangle nearest to the middle of each of some triangles.
+std::vector<int> triangles_below(const Mesh& source, const Mesh& remesh,
+                                 const std::vector<int>& triangles) {
+  Positions middles = Positions::Zero(static_cast<Eigen::Index>(triangles.size()), 3);
+  for (std::size_t i = 0; i < triangles.size(); ++i) {
+    for (const int v : remesh.triangles.row(triangles[i])) {
+      middles.row(static_cast<Eigen::Index>(i)) += remesh.positions.row(v) / 3;
+    }
+  }
+  std::vector<int> below;
+  if (triangles.empty()) return below;
+  for (const SurfacePoint& point : closest_points(source, middles)) below.push_back(point.triangle);
+  return below;
+}
+
 }  // namespace
 
 double hausdorff_distance(const Mesh& from, const Mesh& to, double error_bound) {
   return CGAL::Polygon_mesh_processing::bounded_error_Hausdorff_distance<CGAL::Sequential_tag>(
       to_cgal(from), to_cgal(to), error_bound);
+}
+
+std::vector<int> folded_triangles(const Mesh& source, const Mesh& remesh,
+                                  const std::vector<SurfacePoint>& on_source) {
+  std::vector<int> suspects;
+  for (int f = 0; f < remesh.triangles.rows(); ++f) {
+    Eigen::RowVector3d at_corners = Eigen::RowVector3d::Zero();
+    for (const int v : remesh.triangles.row(f)) {
+      const int triangle = on_source[static_cast<std::size_t>(v)].triangle;
+      at_corners += area_normal(source, triangle).normalized();
+    }
+    if (area_normal(remesh, f).dot(at_corners) < 0) suspects.push_back(f);
+  }
+  const std::vector<int> below = triangles_below(source, remesh, suspects);
+  std::vector<int> folded;
+  for (std::size_t i = 0; i < suspects.size(); ++i) {
+    const Eigen::RowVector3d normal = area_normal(remesh, suspects[i]);
+    if (normal.dot(area_normal(source, below[i])) < 0) folded.push_back(suspects[i]);
+  }
+  return folded;
 }
 
 std::vector<std::pair<int, int>> self_intersections(const Mesh& mesh) {
@@ -68,6 +113,22 @@ std::vector<char> triangles_near_cuts(const Mesh& mesh) {
     }));
   }
   return is_near;
+}
+
+std::vector<std::pair<int, int>> new_cuts(const std::vector<std::pair<int, int>>& pairs,
+                                          const Mesh& remesh, const Mesh& source,
+                                          const std::vector<char>& near_cuts) {
+  std::vector<int> triangles;
+  for (const auto& [f, g] : pairs) triangles.insert(triangles.end(), {f, g});
+  const std::vector<int> below = triangles_below(source, remesh, triangles);
+  const auto is_near = [&](std::size_t i) {
+    return near_cuts[static_cast<std::size_t>(below[i])] != 0;
+  };
+  std::vector<std::pair<int, int>> found;
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    if (!is_near(2 * i) || !is_near(2 * i + 1)) found.push_back(pairs[i]);
+  }
+  return found;
 }
 
 }  // namespace morphbake

@@ -12,6 +12,15 @@ namespace morphbake {
 /// @see  CGAL bounded_error_Hausdorff_distance
 double hausdorff_distance(const Mesh& from, const Mesh& to, double error_bound);
 
+/// Triangles that face against their source: at its point nearest to their middle and, by the map,
+/// at their corners.
+///
+/// The nearest point alone would not do: where two sheets lie close to one another, as lips do, it
+/// may be on the other one.
+/// @param on_source  where the vertices of `remesh` lie on `source`
+std::vector<int> folded_triangles(const Mesh& source, const Mesh& remesh,
+                                  const std::vector<SurfacePoint>& on_source);
+
 /// Pairs of triangles that meet elsewhere than at a common vertex or edge; triangles without area
 /// count as well.
 ///
@@ -21,5 +30,13 @@ std::vector<std::pair<int, int>> self_intersections(const Mesh& mesh);
 /// Marks the triangles that take part in self-intersections, and those that share a vertex with
 /// one.
 std::vector<char> triangles_near_cuts(const Mesh& mesh);
+
+/// Of pairs of triangles of `remesh` that cut one another those that do not both lie where the
+/// source cuts itself.
+///
+/// @param near_cuts  triangles_near_cuts(source)
+std::vector<std::pair<int, int>> new_cuts(const std::vector<std::pair<int, int>>& pairs,
+                                          const Mesh& remesh, const Mesh& source,
+                                          const std::vector<char>& near_cuts);
 
 }  // namespace morphbake

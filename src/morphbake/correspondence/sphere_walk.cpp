@@ -135,6 +135,14 @@ Vector3d SphereAtlas::position(int triangle, const Vector3d& weights) const {
   return sum;
 }
 
+Mesh SphereAtlas::mesh() const {
+  Mesh mesh{Positions(static_cast<Eigen::Index>(positions.size()), 3), map->surface.triangles};
+  for (std::size_t v = 0; v < positions.size(); ++v) {
+    mesh.positions.row(static_cast<Eigen::Index>(v)) = positions[v];
+  }
+  return mesh;
+}
+
 Eigen::Matrix3d SphereAtlas::jacobian(const Vector3d& x, int triangle) const {
   const Vector3d &a = corner(3 * triangle), &b = corner(3 * triangle + 1),
                  &c = corner(3 * triangle + 2);

@@ -85,6 +85,9 @@ struct SphereAtlas {
 
   Eigen::Vector3d position(int triangle, const Eigen::Vector3d& weights) const;
 
+  /// The surface in the atlas's units.
+  Mesh mesh() const;
+
   /// Derivative of the position by the place on the sphere, within a triangle.
   Eigen::Matrix3d jacobian(const Eigen::Vector3d& x, int triangle) const;
 

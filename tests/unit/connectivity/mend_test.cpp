@@ -60,13 +60,7 @@ class Mend : public testing::Test {
     return worst / t.layers[layer].atlas.diagonal;
   }
 
-  Mesh source(std::size_t layer) const {
-    Mesh mesh = maps[layer].surface;
-    for (std::size_t v = 0; v < t.layers[layer].atlas.positions.size(); ++v) {
-      mesh.positions.row(static_cast<Eigen::Index>(v)) = t.layers[layer].atlas.positions[v];
-    }
-    return mesh;
-  }
+  Mesh source(std::size_t layer) const { return t.layers[layer].atlas.mesh(); }
 };
 
 TEST_F(Mend, DistantTrianglesAreThoseAroundTheHorn) {
