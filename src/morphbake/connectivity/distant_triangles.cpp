@@ -13,6 +13,9 @@ using Eigen::Vector3d;
 
 std::size_t index(int i) { return static_cast<std::size_t>(i); }
 
+/// Tangled surfaces are suspect nearly everywhere; beyond so many, few points a triangle must do.
+constexpr std::size_t kManySuspects = 200000;
+
 /// A point of one surface that may be far from the other, and the triangle to refine if it is.
 struct Suspect {
   Vector3d position;
@@ -23,8 +26,8 @@ struct Suspect {
 /// them is not clearly near, at many. `distance(weights)` is that of a point from the other
 /// surface; `far(weights)` is called where it is above `bound`.
 template <typename Distance, typename Far>
-void spread(const Eigen::Matrix3d& corners, double bound, const Distance& distance,
-            const Far& far) {
+void spread(const Eigen::Matrix3d& corners, double bound, bool is_thorough,
+            const Distance& distance, const Far& far) {
   constexpr double kFew = 2, kMany = 0.5;  // bounds between points
   constexpr double kClearlyNear = 0.6;     // bounds
   const double longest =
@@ -39,7 +42,7 @@ void spread(const Eigen::Matrix3d& corners, double bound, const Distance& distan
   double largest = 0;
   each(kFew, [&](const Vector3d& weights) { largest = std::max(largest, distance(weights)); });
   if (largest < kClearlyNear * bound) return;
-  each(kMany, [&](const Vector3d& weights) {
+  each(is_thorough ? kMany : kFew, [&](const Vector3d& weights) {
     if (distance(weights) > bound) far(weights);
   });
 }
@@ -61,7 +64,7 @@ std::vector<Suspect> suspects_of_triangulation(const LayeredTriangulation& t, co
       const Vector3d there = layer.atlas.position(below, layer.atlas.weights_at(x, below));
       return (chord * weights - there).norm();
     };
-    spread(chord, bound, distance, [&](const Vector3d& weights) {
+    spread(chord, bound, suspects.size() < kManySuspects, distance, [&](const Vector3d& weights) {
       suspects.push_back({chord * weights, f});
     });
   }
@@ -86,9 +89,10 @@ std::vector<Suspect> suspects_of_source(const LayeredTriangulation& t, const Lay
       const auto corner = [&](int k) { return layer.lifted[index(t.mesh.from(3 * above + k))]; };
       return point_triangle_distance(position * weights, corner(0), corner(1), corner(2));
     };
-    spread(position, bound, distance, [&](const Vector3d& weights) {
-      suspects.push_back({position * weights, above});
-    });
+    spread(position, bound, suspects.size() < kManySuspects, distance,
+           [&](const Vector3d& weights) {
+             suspects.push_back({position * weights, above});
+           });
   }
   return suspects;
 }

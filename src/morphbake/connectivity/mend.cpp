@@ -100,6 +100,13 @@ void split_worst_edges(LayeredTriangulation& t, const std::vector<int>& triangle
   }
 }
 
+/// Whether most of a source cuts itself: then no triangulation of it can be without cuts, and
+/// looking for them takes the square of its size.
+bool is_tangled(const Measured& measured) {
+  const auto count = std::count(measured.near_cuts.begin(), measured.near_cuts.end(), char{1});
+  return 2 * count > static_cast<std::ptrdiff_t>(measured.near_cuts.size());
+}
+
 }  // namespace
 
 void mend(LayeredTriangulation& t, SourcePoints& points, double max_error, int vertex_limit) {
@@ -121,6 +128,7 @@ void mend(LayeredTriangulation& t, SourcePoints& points, double max_error, int v
       since_best = 0;
     }
     if (broken.empty() || since_best == kPatience) break;
+    if (std::any_of(measured.begin(), measured.end(), is_tangled)) break;
     const Patch patch = patch_around(t, broken);
     split_worst_edges(t, broken, vertex_limit);
     flip_edges(t, tolerance, patch);

@@ -89,7 +89,8 @@ std::vector<std::pair<int, int>> self_intersections(const Mesh& mesh) {
   const Surface surface = to_cgal(mesh);
   std::vector<std::pair<Surface::Face_index, Surface::Face_index>> found;
   CGAL::Polygon_mesh_processing::self_intersections<CGAL::Sequential_tag>(
-      surface, std::back_inserter(found));
+      surface, std::back_inserter(found),
+      CGAL::parameters::maximum_number(static_cast<std::size_t>(kMostSelfIntersections)));
   std::vector<std::pair<int, int>> pairs;
   for (const auto& [f, g] : found) {
     pairs.emplace_back(static_cast<int>(f.idx()), static_cast<int>(g.idx()));
@@ -118,16 +119,20 @@ std::vector<char> triangles_near_cuts(const Mesh& mesh) {
 std::vector<std::pair<int, int>> new_cuts(const std::vector<std::pair<int, int>>& pairs,
                                           const Mesh& remesh, const Mesh& source,
                                           const std::vector<char>& near_cuts) {
-  std::vector<int> triangles;
+  std::vector<int> triangles;  // each once: a tangled surface has many pairs of each
   for (const auto& [f, g] : pairs) triangles.insert(triangles.end(), {f, g});
+  std::sort(triangles.begin(), triangles.end());
+  triangles.erase(std::unique(triangles.begin(), triangles.end()), triangles.end());
   const std::vector<int> below = triangles_below(source, remesh, triangles);
-  const auto is_near = [&](std::size_t i) {
-    return near_cuts[static_cast<std::size_t>(below[i])] != 0;
-  };
-  std::vector<std::pair<int, int>> found;
-  for (std::size_t i = 0; i < pairs.size(); ++i) {
-    if (!is_near(2 * i) || !is_near(2 * i + 1)) found.push_back(pairs[i]);
+  std::vector<char> is_near(static_cast<std::size_t>(remesh.triangles.rows()), 0);
+  for (std::size_t i = 0; i < triangles.size(); ++i) {
+    is_near[static_cast<std::size_t>(triangles[i])] = near_cuts[static_cast<std::size_t>(below[i])];
   }
+  std::vector<std::pair<int, int>> found;
+  std::copy_if(pairs.begin(), pairs.end(), std::back_inserter(found), [&](const auto& pair) {
+    return !is_near[static_cast<std::size_t>(pair.first)] ||
+           !is_near[static_cast<std::size_t>(pair.second)];
+  });
   return found;
 }
 

@@ -21,8 +21,11 @@ double hausdorff_distance(const Mesh& from, const Mesh& to, double error_bound);
 std::vector<int> folded_triangles(const Mesh& source, const Mesh& remesh,
                                   const std::vector<SurfacePoint>& on_source);
 
+constexpr int kMostSelfIntersections =
+    200000;  ///< pairs; a tangled surface has the square of its size
+
 /// Pairs of triangles that meet elsewhere than at a common vertex or edge; triangles without area
-/// count as well.
+/// count as well. At most kMostSelfIntersections of them.
 ///
 /// @param mesh  an oriented manifold
 std::vector<std::pair<int, int>> self_intersections(const Mesh& mesh);

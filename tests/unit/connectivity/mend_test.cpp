@@ -107,5 +107,18 @@ TEST_F(Mend, KeepsToTheVertexLimitAndTheBestOfItsRounds) {
   EXPECT_LE(distance(source(kHorned), lifted(kHorned), kHorned), 1.1 * before);
 }
 
+TEST(MendOfTangledSources, ComesToAnEnd) {
+  Mesh tangled = test::sphere(16, 20);
+  tangled.positions.setRandom();  // of a fixed seed
+  const std::vector<SphericalMap> maps =
+      map_to_sphere({test::surface("even", test::sphere(16, 20), test::kAxes),
+                     test::surface("tangled", tangled, test::kAxes)},
+                    {});
+  LayeredTriangulation t = coarse_triangulation(maps, 200);
+  SourcePoints points = source_points(t);
+  mend(t, points, kBound, 1000);
+  EXPECT_LE(t.vertex_count(), 1000);
+}
+
 }  // namespace
 }  // namespace morphbake
