@@ -110,10 +110,11 @@ TEST_F(Mend, KeepsToTheVertexLimitAndTheBestOfItsRounds) {
 TEST(MendOfTangledSources, ComesToAnEnd) {
   Mesh tangled = test::sphere(16, 20);
   tangled.positions.setRandom();  // of a fixed seed
-  const std::vector<SphericalMap> maps =
-      map_to_sphere({test::surface("even", test::sphere(16, 20), test::kAxes),
-                     test::surface("tangled", tangled, test::kAxes)},
-                    {});
+  std::vector<SourceSurface> sources{test::surface("even", test::sphere(16, 20), test::kAxes),
+                                     test::surface("tangled", tangled, {})};
+  sources[1].landmark_names = sources[0].landmark_names;
+  sources[1].landmarks = sources[0].landmarks;  // in the same triangles
+  const std::vector<SphericalMap> maps = map_to_sphere(sources, {});
   LayeredTriangulation t = coarse_triangulation(maps, 200);
   SourcePoints points = source_points(t);
   mend(t, points, kBound, 1000);
