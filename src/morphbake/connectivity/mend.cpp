@@ -24,21 +24,28 @@ constexpr double kShare = 0.9;      // of max_error, since only some points are 
 
 std::size_t index(int i) { return static_cast<std::size_t>(i); }
 
-/// A source as the report measures it; where it cuts itself is found out when it matters.
+/// A source as the report measures it.
 struct Measured {
   Mesh source;
   std::vector<char> near_cuts;
 };
 
+std::vector<Measured> measured_sources(const LayeredTriangulation& t) {
+  std::vector<Measured> measured(t.layers.size());
+  tbb::parallel_for(std::size_t{0}, t.layers.size(), [&](std::size_t s) {
+    const SphericalMap& map = *t.layers[s].atlas.map;  // its first vertices are the source's
+    measured[s].source = {map.surface.positions, map.source_triangles};
+    measured[s].near_cuts = triangles_near_cuts(measured[s].source);
+  });
+  return measured;
+}
+
 /// Folded and newly cut triangles of one layer, by the checks of measure_triangulation.
 std::vector<int> faulty_triangles(const LayeredTriangulation& t, const SharedTriangulation& shared,
-                                  std::size_t layer, Measured& measured) {
+                                  std::size_t layer, const Measured& measured) {
   const Mesh remesh{shared.geometries[layer], shared.connectivity.triangles};
   std::vector<int> faulty = folded_triangles(measured.source, remesh, shared.on_source[layer]);
   const std::vector<std::pair<int, int>> pairs = self_intersections(remesh);
-  if (!pairs.empty() && measured.near_cuts.empty()) {
-    measured.near_cuts = triangles_near_cuts(measured.source);
-  }
   for (const auto& [f, g] : new_cuts(pairs, remesh, measured.source, measured.near_cuts)) {
     faulty.insert(faulty.end(), {f, g});
   }
@@ -49,7 +56,7 @@ std::vector<int> faulty_triangles(const LayeredTriangulation& t, const SharedTri
 
 /// Folded, degenerate, newly cut and distant triangles of all layers; some several times.
 std::vector<int> broken_triangles(const LayeredTriangulation& t, const SourcePoints& points,
-                                  double max_error, std::vector<Measured>& measured) {
+                                  double max_error, const std::vector<Measured>& measured) {
   const SharedTriangulation shared = shared_triangulation(t);
   std::vector<std::vector<int>> found(t.layers.size());
   tbb::parallel_for(std::size_t{0}, t.layers.size(), [&](std::size_t s) {
@@ -111,11 +118,8 @@ bool is_tangled(const Measured& measured) {
 
 void mend(LayeredTriangulation& t, SourcePoints& points, double max_error, int vertex_limit) {
   const double tolerance = 0.5 * max_error;
-  std::vector<Measured> measured;
-  for (const Layer& layer : t.layers) {
-    const SphericalMap& map = *layer.atlas.map;  // its first vertices are the source's
-    measured.push_back({{map.surface.positions, map.source_triangles}, {}});
-  }
+  const std::vector<Measured> measured = measured_sources(t);
+  if (std::any_of(measured.begin(), measured.end(), is_tangled)) return;
   std::optional<LayeredTriangulation> best;
   std::size_t fewest = std::numeric_limits<std::size_t>::max();
   int since_best = 0;
@@ -128,7 +132,6 @@ void mend(LayeredTriangulation& t, SourcePoints& points, double max_error, int v
       since_best = 0;
     }
     if (broken.empty() || since_best == kPatience) break;
-    if (std::any_of(measured.begin(), measured.end(), is_tangled)) break;
     const Patch patch = patch_around(t, broken);
     split_worst_edges(t, broken, vertex_limit);
     flip_edges(t, tolerance, patch);
