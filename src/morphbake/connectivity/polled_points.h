@@ -1,8 +1,10 @@
 #pragma once
 
-#include <CGAL/boost/graph/properties.h>
-
 #include "morphbake/diagnostics/observer.h"
+
+namespace boost {
+struct read_write_property_map_tag;  // headers show no library
+}
 
 namespace morphbake {
 
