@@ -6,64 +6,11 @@
 import { spawn, spawnSync } from 'node:child_process';
 import { existsSync, mkdirSync, readdirSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
+import { sphere, torus, write_gltf } from './meshes.mjs';
 
 const [program, scratch] = process.argv.slice(2);
 let failures = 0;
 const wrong = (text) => { console.log(`WRONG: ${text}`); ++failures; };
-
-/** A sphere of `across` meridians and `along` parallels, each point changed by `change`. */
-function sphere(across, along, change = (p) => p) {
-  const points = [[0, 0, 1]], faces = [];
-  for (let i = 1; i < along; ++i) {
-    for (let j = 0; j < across; ++j) {
-      const t = (Math.PI * i) / along, u = (2 * Math.PI * j) / across;
-      points.push([Math.sin(t) * Math.cos(u), Math.sin(t) * Math.sin(u), Math.cos(t)]);
-    }
-  }
-  points.push([0, 0, -1]);
-  const at = (i, j) => 1 + (i - 1) * across + (j % across);
-  for (let j = 0; j < across; ++j) {
-    faces.push([0, at(1, j), at(1, j + 1)], [points.length - 1, at(along - 1, j + 1), at(along - 1, j)]);
-    for (let i = 1; i < along - 1; ++i) {
-      faces.push([at(i, j), at(i + 1, j), at(i + 1, j + 1)], [at(i, j), at(i + 1, j + 1), at(i, j + 1)]);
-    }
-  }
-  return { points: points.map(change), faces };
-}
-
-function torus(n) {
-  const points = [], faces = [];
-  for (let i = 0; i < n; ++i) {
-    for (let j = 0; j < n; ++j) {
-      const u = (2 * Math.PI * i) / n, t = (2 * Math.PI * j) / n, r = 1 + 0.4 * Math.cos(t);
-      points.push([r * Math.cos(u), r * Math.sin(u), 0.4 * Math.sin(t)]);
-      const a = i * n + j, b = ((i + 1) % n) * n + j, c = ((i + 1) % n) * n + ((j + 1) % n), d = i * n + ((j + 1) % n);
-      faces.push([a, b, c], [a, c, d]);
-    }
-  }
-  return { points, faces };
-}
-
-/** Writes a mesh as NAME.gltf and NAME.bin. */
-function write_gltf(folder, name, { points, faces }) {
-  const floats = Buffer.from(new Float32Array(points.flat()).buffer);
-  const bytes = Buffer.concat([floats, Buffer.from(new Uint32Array(faces.flat()).buffer)]);
-  const side = (pick) => [0, 1, 2].map((k) => points.reduce((best, p) => pick(best, Math.fround(p[k])), Math.fround(points[0][k])));
-  writeFileSync(join(folder, `${name}.bin`), bytes);
-  writeFileSync(join(folder, `${name}.gltf`), JSON.stringify({
-    asset: { version: '2.0' }, scene: 0, scenes: [{ nodes: [0] }], nodes: [{ mesh: 0 }],
-    meshes: [{ primitives: [{ attributes: { POSITION: 0 }, indices: 1 }] }],
-    accessors: [
-      { bufferView: 0, componentType: 5126, count: points.length, type: 'VEC3', min: side(Math.min), max: side(Math.max) },
-      { bufferView: 1, componentType: 5125, count: 3 * faces.length, type: 'SCALAR' },
-    ],
-    bufferViews: [
-      { buffer: 0, byteOffset: 0, byteLength: floats.length },
-      { buffer: 0, byteOffset: floats.length, byteLength: bytes.length - floats.length },
-    ],
-    buffers: [{ byteLength: bytes.length, uri: `${name}.bin` }],
-  }));
-}
 
 const axes = { top: [0, 0, 1], front: [1, 0, 0], left: [0, 1, 0], back: [-1, 0, 0] };
 const landmarks = (change = (p) => p, names = Object.keys(axes)) =>
@@ -143,6 +90,31 @@ refused('no_manifold', 4, [
   points: [...mesh.points, ...mesh.points.map((p) => p.map((x) => 0.1 * x + 2))],
   faces: [...mesh.faces, ...mesh.faces.map((face) => face.map((v) => v + mesh.points.length))],
 })));
+// New triangles of a resample are made on the first source, which must be a surface.
+const squeezed = (change) => ({ mesh: sphere(16, 12, change), landmarks: {} });
+const loose = { mesh: sphere(16, 12), landmarks: {} };
+const resampled = { mode: 'resample' };
+refused('resampled_line', 4, ['a.gltf#/meshes/0: error: the surface is no oriented manifold: ', '[connectivity.not-manifold]'],
+  squeezed(([x, y, z]) => [x + 3 * y + 7 * z, 0, 0]), loose, resampled);
+refused('resampled_flat', 4, ['a.gltf#/meshes/0: error: the surface is no oriented manifold: edge (', '[connectivity.not-manifold]'],
+  squeezed(([x, y]) => [x, y, 0]), loose, resampled);
+refused('resampled_point', 4, ['a.gltf#/meshes/0: error: the mesh has no triangle with three different corners [connectivity.empty]'],
+  squeezed(() => [0, 0, 0]), loose, resampled);
+const strip = { points: [0, 1, 2, 3, 4].map((x) => [x, x % 2, 0]), faces: [[0, 1, 2], [2, 1, 3], [2, 3, 4]] };
+refused('resampled_strip', 4, ['a.gltf: error: "a" has pieces without area: at (0, 0, 0) [connectivity.no-area]'],
+  { mesh: { ...strip, points: strip.points.map(([x]) => [x, 0, 0]) }, landmarks: {} }, { mesh: strip, landmarks: {} }, resampled);
+// A triangle without area here and there is none to refuse; before, CGAL failed where edges beside it were hard.
+const halved = ({ points, faces }) => {
+  const mesh = { points: [...points], faces: [] };
+  for (const [a, b, c] of faces) {
+    const middle = mesh.points.push([0, 1, 2].map((k) => (points[a][k] + points[b][k]) / 2)) - 1;
+    mesh.faces.push([a, b, middle], [a, middle, c], [middle, b, c]);
+  }
+  return mesh;
+};
+const flat_triangles = { mesh: halved(sphere(16, 12)), landmarks: {} };
+if (done('resampled_halves', flat_triangles, flat_triangles, { mode: 'resample', max_error: 0.05, max_vertices: 3000, target_edge_length: 0.05 })
+  .report.connectivity?.sources.some((source) => source.folds > 0)) wrong('resampled_halves: folds');
 refused('turned_triangle', 4, ['[connectivity.not-manifold]', 'hint: in Blender: Mesh > Normals > Recalculate Outside'],
   ball((mesh) => ({ points: mesh.points, faces: mesh.faces.map((face, f) => (f === 50 ? [face[0], face[2], face[1]] : face)) })), good);
 refused('open_and_closed', 4, ['error: "b" is closed but "a" is open (it has a border, one of 3 edges at (', '[correspondence.different-topology]'],

@@ -43,7 +43,8 @@ RemeshedSources remesh_sources(const Recipe& recipe, const std::vector<SourceMes
                                 : own_surfaces(recipe, sources, observer);
   remeshed.triangulation = new_triangulation(recipe, remeshed.surfaces, clock, observer);
   clock.start("carry");
-  remeshed.files = write_connectivity_files(sources, remeshed.surfaces, remeshed.triangulation);
+  remeshed.files =
+      write_connectivity_files(sources, remeshed.surfaces, remeshed.triangulation, observer);
   return remeshed;
 }
 

@@ -160,7 +160,8 @@ void append_map(const SourceMesh& source, const SourceSurface& surface,
 
 ConnectivityFiles write_connectivity_files(const std::vector<SourceMesh>& sources,
                                            const std::vector<SourceSurface>& surfaces,
-                                           const SharedTriangulation& triangulation) {
+                                           const SharedTriangulation& triangulation,
+                                           const Observer& observer) {
   const FileVertices vertices = split_vertices(triangulation);
   ConnectivityFiles files;
   files.maps = "MORPHMAP";
@@ -169,7 +170,9 @@ ConnectivityFiles write_connectivity_files(const std::vector<SourceMesh>& source
   append_number(files.maps, static_cast<std::uint32_t>(sources.size()));
   align(files.maps);
   for (std::size_t s = 0; s < sources.size(); ++s) {
+    stop_if_cancelled(observer);
     files.glbs.push_back(glb_of(sources[s], surfaces[s], triangulation, s, vertices));
+    stop_if_cancelled(observer);
     append_map(sources[s], surfaces[s], triangulation.on_source[s], vertices, files.maps);
   }
   return files;

@@ -19,9 +19,10 @@ struct ConnectivityFiles {
 /// edges, at which shading breaks.
 ///
 /// Vertices of the triangulation come first, in its order; the copies at hard edges follow.
-/// @throws BakeError as carry_colours and write_mesh_glb
+/// @throws BakeError as carry_colours and write_mesh_glb; Cancelled
 ConnectivityFiles write_connectivity_files(const std::vector<SourceMesh>& sources,
                                            const std::vector<SourceSurface>& surfaces,
-                                           const SharedTriangulation& triangulation);
+                                           const SharedTriangulation& triangulation,
+                                           const Observer& observer);
 
 }  // namespace morphbake

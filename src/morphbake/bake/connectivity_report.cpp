@@ -26,7 +26,9 @@ void add_size_warnings(const Recipe& recipe, bool ended_by_limit, const SourceQu
       ended_by_limit ? fmt::format("; refinement ended at max_vertices ({})", request.max_vertices)
                      : "";
   const double reached = std::max(quality.source_to_remesh, quality.remesh_to_source);
-  if (reached > request.max_error) {
+  const bool is_asked_for = request.mode == ConnectivityMode::Remesh ||
+                            request.sizing == VertexSizing::Curvature;  // see resample
+  if (is_asked_for && reached > request.max_error) {
     warnings.push_back(warning(
         recipe, "connectivity.error-not-reached",
         fmt::format("\"{}\" is met within {:.2g} of its diagonal, not within max_error ({:.2g}){}",
@@ -79,8 +81,7 @@ std::vector<Problem> connectivity_warnings(const Recipe& recipe,
                                            const SharedTriangulation& triangulation,
                                            const TriangulationQuality& quality) {
   std::vector<Problem> warnings;
-  const bool ended_by_limit =
-      triangulation.connectivity.vertex_count >= recipe.connectivity.max_vertices;
+  const bool ended_by_limit = triangulation.is_full;
   if (triangulation.rounded_hard_edges > 0) {
     warnings.push_back(warning(
         recipe, "connectivity.rounded-hard-edges",

@@ -219,8 +219,10 @@ Image connectivity_sheet(const std::vector<SourceMesh>& sources, const RemeshedS
     advance(observer, {"sheet", static_cast<int>(s), static_cast<int>(sources.size())});
     pictures.push_back(picture_of(read_animated_mesh(sources[s].file), options));
     draw_title(sources[s].name, pictures.back());
+    stop_if_cancelled(observer);
     pictures.push_back(surface_picture(triangulation, s, options));
     draw_title(fmt::format("{} vertices", k.vertex_count), pictures.back());
+    stop_if_cancelled(observer);
     AnimatedPrimitive checked = smooth_surface(triangulation.geometries[s], k.triangles);
     checked.texture_coordinates = coordinates;
     checked.image = 0;
@@ -228,6 +230,7 @@ Image connectivity_sheet(const std::vector<SourceMesh>& sources, const RemeshedS
     with_checker.images = {checker_png};
     pictures.push_back(picture_of(with_checker, options));
     draw_title("equal cells: equal places", pictures.back());
+    stop_if_cancelled(observer);
     AnimatedPrimitive heated = smooth_surface(triangulation.geometries[s], k.triangles);
     heated.colours = heat_colours(heat[s], k);
     pictures.push_back(picture_of(still_mesh(std::move(heated)), options));

@@ -48,6 +48,15 @@ CornerSurface corner_surface(const MorphableMesh& shared, const SourceMesh& firs
   return corners;
 }
 
+/// New triangles are made on the first source. What lies at one place there would be one: a sphere
+/// that is squashed flat, a mouth that is closed so that its lips are one line.
+void check_is_surface(const SourceMesh& source) {
+  const std::vector<int> classes = welded_corners(source);
+  CornerSurface own = surface_of_corners(classes, proper_triangles(classes));
+  wind_as_seen(source, own);
+  check_manifold(source, own.connectivity, vertex_positions(source, own));
+}
+
 /// Every landmark is a vertex.
 void check_room(const Recipe& recipe, std::size_t landmarks) {
   const int limit = recipe.connectivity.max_vertices;
@@ -68,12 +77,15 @@ std::vector<SourceSurface> own_surfaces(const Recipe& recipe,
   std::vector<SourceSurface> surfaces;
   std::vector<Problem> problems;
   for (std::size_t s = 0; s < sources.size(); ++s) {
+    stop_if_cancelled(observer);
     surfaces.push_back(source_surface(sources[s], recipe.sources[s], observer, problems));
   }
   for (Problem& problem : common_landmark_problems(surfaces)) {
     if (problem.severity == Severity::Error) problems.push_back(std::move(problem));
   }
+  stop_if_cancelled(observer);
   for (Problem& problem : topology_problems(surfaces)) problems.push_back(std::move(problem));
+  stop_if_cancelled(observer);
   if (!problems.empty()) throw BakeError(std::move(problems));
   surfaces = with_common_landmarks(std::move(surfaces), observer);
   check_room(recipe, surfaces.front().landmarks.size());
@@ -83,10 +95,14 @@ std::vector<SourceSurface> own_surfaces(const Recipe& recipe,
 std::vector<SourceSurface> shared_surfaces(const Recipe& recipe,
                                            const std::vector<SourceMesh>& sources,
                                            const Observer& observer) {
+  check_is_surface(sources[0]);
+  stop_if_cancelled(observer);
   const MorphableMesh shared = share_connectivity(sources);
+  stop_if_cancelled(observer);
   const CornerSurface corners = corner_surface(shared, sources[0]);
   std::vector<SourceSurface> surfaces;
   for (std::size_t s = 0; s < sources.size(); ++s) {
+    stop_if_cancelled(observer);
     const SourceRef& ref = recipe.sources[s];
     SourceSurface& surface = surfaces.emplace_back();
     surface.name = sources[s].name;

@@ -77,17 +77,21 @@ std::vector<int> living_numbers(const ClosedMesh& mesh) {
 
 }  // namespace
 
-LayeredTriangulation coarse_triangulation(const std::vector<SphericalMap>& maps, int count) {
+LayeredTriangulation coarse_triangulation(const std::vector<SphericalMap>& maps, int count,
+                                          const Observer& observer) {
   std::vector<Layer> layers;
-  for (const SphericalMap& map : maps) layers.push_back({SphereAtlas(map), {}, {}, {}});
+  for (const SphericalMap& map : maps) {
+    stop_if_cancelled(observer);
+    layers.push_back({SphereAtlas(map), {}, {}, {}});
+  }
   const CappedSurface capped = capped_again(layers[0].atlas);
   SphereLayout layout = make_layout(capped);
   for (Eigen::Index v = 0; v < maps[0].sphere.rows(); ++v) {
     layout.sphere[static_cast<std::size_t>(v)] = maps[0].sphere.row(v);
   }
   if (capped.apex >= 0) layout.sphere[index(capped.apex)] = -Vector3d::UnitZ();
-  coarsen(layout, count + (capped.apex >= 0),
-          [&](const ClosedMesh& mesh, int h) { return keeps_shape(layout, mesh, h); });
+  const auto allowed = [&](const ClosedMesh& mesh, int h) { return keeps_shape(layout, mesh, h); };
+  coarsen(layout, count + (capped.apex >= 0), allowed, observer);
 
   const std::vector<int> number = living_numbers(layout.mesh);
   Triangles triangles = layout.mesh.triangles();
@@ -101,7 +105,8 @@ LayeredTriangulation coarse_triangulation(const std::vector<SphericalMap>& maps,
                          std::vector<char>(index(living), 0),
                          capped.apex < 0 ? -1 : number[index(capped.apex)],
                          {},
-                         {}};
+                         {},
+                         observer};
   for (int v = 0; v < layout.mesh.vertex_slots(); ++v) {
     if (number[index(v)] < 0) continue;
     const auto n = index(number[index(v)]);

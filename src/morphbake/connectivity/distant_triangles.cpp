@@ -52,6 +52,7 @@ std::vector<Suspect> suspects_of_triangulation(const LayeredTriangulation& t, co
                                                double bound) {
   std::vector<Suspect> suspects;
   for (const int f : surface_triangles(t)) {
+    stop_if_cancelled(t.observer);
     Eigen::Matrix3d place, chord;  // columns are corners
     for (int k = 0; k < 3; ++k) {
       place.col(k) = layer.sphere[index(t.mesh.from(3 * f + k))];
@@ -77,6 +78,7 @@ std::vector<Suspect> suspects_of_source(const LayeredTriangulation& t, const Lay
   std::vector<Suspect> suspects;
   const SphereAtlas& atlas = layer.atlas;
   for (int f = 0; f < static_cast<int>(atlas.normals.size()); ++f) {
+    stop_if_cancelled(t.observer);
     Eigen::Matrix3d place, position;  // columns are corners
     for (int k = 0; k < 3; ++k) {
       place.col(k) = atlas.sphere[index(atlas.from(3 * f + k))];
@@ -102,14 +104,14 @@ std::vector<Suspect> suspects_of_source(const LayeredTriangulation& t, const Lay
 /// @param surface  surface(): that one; asked only where it is needed
 template <typename Surface>
 void append_guilty(const std::vector<Suspect>& suspects, const Surface& surface, double bound,
-                   std::vector<int>& triangles) {
+                   const Observer& observer, std::vector<int>& triangles) {
   if (suspects.empty()) return;
   const Mesh mesh = surface();
   Positions positions(static_cast<Eigen::Index>(suspects.size()), 3);
   for (std::size_t i = 0; i < suspects.size(); ++i) {
     positions.row(static_cast<Eigen::Index>(i)) = suspects[i].position;
   }
-  const std::vector<SurfacePoint> nearest = closest_points(mesh, positions);
+  const std::vector<SurfacePoint> nearest = closest_points(mesh, positions, observer);
   for (std::size_t i = 0; i < suspects.size(); ++i) {
     const double distance = (position_of(mesh, nearest[i]) - suspects[i].position).norm();
     if (distance > bound) triangles.push_back(suspects[i].triangle);
@@ -124,10 +126,11 @@ std::vector<int> distant_triangles(const LayeredTriangulation& t, std::size_t la
   const double length = bound * on.atlas.diagonal;
   std::vector<int> triangles;
   append_guilty(
-      suspects_of_triangulation(t, on, length), [&] { return on.atlas.mesh(); }, length, triangles);
+      suspects_of_triangulation(t, on, length), [&] { return on.atlas.mesh(); }, length, t.observer,
+      triangles);
   append_guilty(
       suspects_of_source(t, on, points.triangle[layer], length),
-      [&] { return lifted_mesh(t, on, surface_triangles(t)); }, length, triangles);
+      [&] { return lifted_mesh(t, on, surface_triangles(t)); }, length, t.observer, triangles);
   std::sort(triangles.begin(), triangles.end());
   triangles.erase(std::unique(triangles.begin(), triangles.end()), triangles.end());
   return triangles;

@@ -7,6 +7,7 @@
 
 #include "morphbake/connectivity/shared_triangulation.h"
 #include "morphbake/correspondence/sphere_walk.h"
+#include "morphbake/diagnostics/observer.h"
 #include "morphbake/mesh/closed_mesh.h"
 
 namespace morphbake {
@@ -31,6 +32,9 @@ struct LayeredTriangulation {
   int apex = -1;                  ///< of disks
   std::vector<int> landmarks;
   std::unordered_set<std::uint64_t> hard_edges;  ///< keys of edge_key
+  /// Whom each pass over the triangulation asks whether to stop; passes throw Cancelled. It lies
+  /// here since all of them would take it beside the triangulation.
+  Observer observer = {};
 
   static std::size_t index(int i) { return static_cast<std::size_t>(i); }
 
@@ -133,7 +137,9 @@ SharedTriangulation shared_triangulation(const LayeredTriangulation& t);
 
 /// The coarsest triangulation: that of the first source, simplified as far as the maps allow.
 ///
-/// @param count  vertices to stop at
-LayeredTriangulation coarse_triangulation(const std::vector<SphericalMap>& maps, int count);
+/// @param count     vertices to stop at
+/// @param observer  whom this and all passes over the triangulation ask whether to stop
+LayeredTriangulation coarse_triangulation(const std::vector<SphericalMap>& maps, int count,
+                                          const Observer& observer = {});
 
 }  // namespace morphbake

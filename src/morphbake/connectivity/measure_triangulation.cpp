@@ -14,7 +14,6 @@ namespace morphbake {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-constexpr double kHausdorffBound = 1e-4;  // fraction of the diagonal by which it may be too small
 constexpr std::size_t kListedRegions = 20;
 
 double smallest_angle(const Mesh& mesh) {
@@ -69,25 +68,27 @@ double longest_edge(const Mesh& mesh) {
 }
 
 SourceQuality measure_source(const std::vector<SourceSurface>& surfaces,
-                             const SharedTriangulation& triangulation, std::size_t s) {
+                             const SharedTriangulation& triangulation, std::size_t s,
+                             const Observer& observer) {
   const SourceSurface& source = surfaces[s];
   const Mesh remesh{triangulation.geometries[s], triangulation.connectivity.triangles};
   const double diagonal = bounding_diagonal(source.mesh.positions);
   const double bound = kHausdorffBound * diagonal;
   SourceQuality quality;
   quality.source = source.name;
-  quality.source_to_remesh = hausdorff_distance(source.mesh, remesh, bound) / diagonal;
-  quality.remesh_to_source = hausdorff_distance(remesh, source.mesh, bound) / diagonal;
-  quality.folds =
-      static_cast<int>(folded_triangles(source.mesh, remesh, triangulation.on_source[s]).size());
-  const std::vector<std::pair<int, int>> pairs = self_intersections(remesh);
+  quality.source_to_remesh = hausdorff_distance(source.mesh, remesh, bound, observer) / diagonal;
+  quality.remesh_to_source = hausdorff_distance(remesh, source.mesh, bound, observer) / diagonal;
+  quality.folds = static_cast<int>(
+      folded_triangles(source.mesh, remesh, triangulation.on_source[s], observer).size());
+  const std::vector<std::pair<int, int>> pairs = self_intersections(remesh, observer);
   quality.self_intersections = static_cast<int>(pairs.size());
   if (!pairs.empty()) {
-    const std::vector<char> near_cuts = triangles_near_cuts(source.mesh);
+    const std::vector<char> near_cuts = triangles_near_cuts(source.mesh, observer);
     quality.new_self_intersections =
         static_cast<int>(new_cuts(pairs, remesh, source.mesh, near_cuts).size());
   }
-  quality.source_self_intersections = static_cast<int>(self_intersections(source.mesh).size());
+  quality.source_self_intersections =
+      static_cast<int>(self_intersections(source.mesh, observer).size());
   quality.smallest_angle = smallest_angle(remesh);
   quality.longest_edge = longest_edge(remesh) / diagonal;
   quality.landmark_error =
@@ -109,7 +110,8 @@ TriangulationQuality measure_triangulation(const std::vector<SourceSurface>& sur
   TriangulationQuality quality;
   for (std::size_t s = 0; s < surfaces.size(); ++s) {
     advance(observer, {"measure", static_cast<int>(s), count});
-    quality.sources.push_back(measure_source(surfaces, triangulation, s));
+    quality.sources.push_back(measure_source(surfaces, triangulation, s, observer));
+    stop_if_cancelled(observer);
     if (s == 0) continue;
     quality.maps.push_back(
         summarize_distortion(map_distortion(first, triangulation.geometries[s], triangles), areas));

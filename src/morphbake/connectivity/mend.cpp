@@ -35,7 +35,7 @@ std::vector<Measured> measured_sources(const LayeredTriangulation& t) {
   tbb::parallel_for(std::size_t{0}, t.layers.size(), [&](std::size_t s) {
     const SphericalMap& map = *t.layers[s].atlas.map;  // its first vertices are the source's
     measured[s].source = {map.surface.positions, map.source_triangles};
-    measured[s].near_cuts = triangles_near_cuts(measured[s].source);
+    measured[s].near_cuts = triangles_near_cuts(measured[s].source, t.observer);
   });
   return measured;
 }
@@ -44,8 +44,9 @@ std::vector<Measured> measured_sources(const LayeredTriangulation& t) {
 std::vector<int> faulty_triangles(const LayeredTriangulation& t, const SharedTriangulation& shared,
                                   std::size_t layer, const Measured& measured) {
   const Mesh remesh{shared.geometries[layer], shared.connectivity.triangles};
-  std::vector<int> faulty = folded_triangles(measured.source, remesh, shared.on_source[layer]);
-  const std::vector<std::pair<int, int>> pairs = self_intersections(remesh);
+  std::vector<int> faulty =
+      folded_triangles(measured.source, remesh, shared.on_source[layer], t.observer);
+  const std::vector<std::pair<int, int>> pairs = self_intersections(remesh, t.observer);
   for (const auto& [f, g] : new_cuts(pairs, remesh, measured.source, measured.near_cuts)) {
     faulty.insert(faulty.end(), {f, g});
   }
@@ -124,6 +125,7 @@ void mend(LayeredTriangulation& t, SourcePoints& points, double max_error, int v
   std::size_t fewest = std::numeric_limits<std::size_t>::max();
   int since_best = 0;
   for (int round = 0; round < kRounds; ++round) {
+    stop_if_cancelled(t.observer);
     const std::vector<int> broken = broken_triangles(t, points, max_error, measured);
     ++since_best;
     if (broken.size() < fewest) {

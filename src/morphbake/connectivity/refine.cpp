@@ -19,6 +19,8 @@ constexpr double kAtVertex = 0.9995;
 /// A point this near to an edge goes onto it: the triangle beside it would be a needle.
 constexpr double kNearEdge = 0.02;
 
+constexpr int kStride = 256;  // vertices or triangles between two looks whether to stop
+
 std::size_t index(int i) { return static_cast<std::size_t>(i); }
 
 double distance_to(const LayeredTriangulation& t, const Layer& layer, int f, const Vector3d& p) {
@@ -36,7 +38,12 @@ void for_each_point(const LayeredTriangulation& t, SourcePoints& points, std::si
   const Layer& layer = t.layers[s];
   int last = 0;
   while (!t.mesh.has_triangle(last)) ++last;
+  int until_look = 0;
   for (const int v : points.order[s]) {
+    if (until_look-- == 0) {
+      stop_if_cancelled(t.observer);
+      until_look = kStride;
+    }
     if (layer.atlas.map->on_boundary[index(v)]) continue;
     int& triangle = points.triangle[s][index(v)];
     if (triangle >= 0 && t.mesh.has_triangle(triangle)) last = triangle;
@@ -115,6 +122,7 @@ std::vector<RatedEdge> edges_above(const LayeredTriangulation& t, double bound,
                                    const Function& rate) {
   std::vector<double> ratings(index(3 * t.mesh.triangle_slots()), 0);
   tbb::parallel_for(0, t.mesh.triangle_slots(), [&](int f) {
+    if (f % kStride == 0) stop_if_cancelled(t.observer);
     if (!t.mesh.has_triangle(f)) return;
     for (int h = 3 * f; h < 3 * f + 3; ++h) {
       const int a = t.mesh.from(h), b = t.mesh.to(h);
@@ -336,7 +344,8 @@ Pass flip_edges(LayeredTriangulation& t, double tolerance, const Patch& patch) {
     const bool is_free = patch.has(t.mesh.from(h)) && patch.has(t.mesh.to(h)) && can_flip(t, h);
     return is_free ? flip_gain(t, h, tolerance) : -1;
   };
-  for (const RatedEdge& edge : edges_above(t, 0, gain)) {
+  const std::vector<RatedEdge> edges = edges_above(t, 0, gain);
+  for (const RatedEdge& edge : edges) {
     const int h = t.mesh.find(edge.a, edge.b);
     if (h < 0 || !can_flip(t, h) || !(flip_gain(t, h, tolerance) > 0)) continue;
     t.mesh.flip(h);

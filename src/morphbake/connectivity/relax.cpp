@@ -14,6 +14,7 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 
 constexpr RestLimits kLimits{0.03, 1e-9};
+constexpr int kStride = 256;     // vertices or triangles between two looks whether to stop
 constexpr double kSlack = 0.05;  // of twice the area of an even triangle of the same size
 
 std::size_t index(int i) { return static_cast<std::size_t>(i); }
@@ -38,6 +39,7 @@ void freeze(const LayeredTriangulation& t, Rest rest, Frozen& frozen) {
   for (std::vector<Vector3d>& normals : frozen.normals) normals.resize(slots);
   tbb::parallel_for(std::size_t{0}, slots, [&](std::size_t slot) {
     const int f = static_cast<int>(slot);
+    if (f % kStride == 0) stop_if_cancelled(t.observer);
     if (!t.mesh.has_triangle(f) || t.is_cap(f)) return;
     const int a = t.mesh.from(3 * f), b = t.mesh.from(3 * f + 1), c = t.mesh.from(3 * f + 2);
     Vector3d mean = Vector3d::Zero();
@@ -69,6 +71,7 @@ class LayerRelaxation {
   void sweep(bool backwards) {
     const int slots = t_.mesh.vertex_slots();
     for (int i = 0; i < slots; ++i) {
+      if (i % kStride == 0) stop_if_cancelled(t_.observer);
       const int v = backwards ? slots - 1 - i : i;
       if (t_.mesh.has_vertex(v) && is_movable(v)) move(v);
     }

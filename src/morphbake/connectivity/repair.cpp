@@ -17,8 +17,9 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr int kTries = 2;   // of a triangle until something around it changes
-constexpr int kMoves = 24;  // places tried for a vertex on each layer
+constexpr int kTries = 2;     // of a triangle until something around it changes
+constexpr int kStride = 256;  // triangles between two looks whether to stop
+constexpr int kMoves = 24;    // places tried for a vertex on each layer
 
 std::size_t index(int i) { return static_cast<std::size_t>(i); }
 
@@ -30,6 +31,7 @@ class Repair {
     costs_.resize(index(t.mesh.triangle_slots()), 0);
     failures_.resize(costs_.size(), 0);
     tbb::parallel_for(0, t.mesh.triangle_slots(), [&](int f) {
+      if (f % kStride == 0) stop_if_cancelled(t_.observer);
       int folds = 0;
       if (t_.mesh.has_triangle(f)) costs_[index(f)] = triangle_cost(t_, f, folds);
     });
@@ -46,6 +48,7 @@ class Repair {
     std::sort(bad.begin(), bad.end());
     repaired.bad = static_cast<int>(bad.size());
     for (const auto& [cost, f] : bad) {
+      stop_if_cancelled(t_.observer);
       if (!t_.mesh.has_triangle(f) || !(costs_[index(f)] > threshold)) continue;
       if (failures_[index(f)] >= kTries) continue;
       const int changed = better(f);

@@ -19,6 +19,7 @@ struct SharedTriangulation {
   std::vector<char> on_boundary;            ///< #V
   std::vector<Eigen::Vector2i> hard_edges;  ///< a < b, of any source
   int rounded_hard_edges = 0;               ///< of sources: those for which there was no room
+  bool is_full = false;                     ///< max_vertices ended the refinement
 };
 
 /// Triangulates all sources alike over the sphere on which they lie.
@@ -39,9 +40,9 @@ SharedTriangulation triangulate(const std::vector<SphericalMap>& maps, const Rem
 /// sizing by curvature: Sizing::Curvature makes all edges finer, from target_edge_length, until
 /// every source is met within max_error or max_vertices is reached; Sizing::Uniform does not look
 /// at max_error.
-/// @param surfaces  with equal triangles
-/// @throws BakeError "connectivity.different-triangles", "connectivity.too-many-vertices";
-///         Cancelled
+/// @param surfaces  with equal triangles; the first is an oriented manifold by itself, too
+/// @throws BakeError "connectivity.different-triangles", "connectivity.no-area",
+///         "connectivity.too-many-vertices"; Cancelled
 SharedTriangulation resample(const std::vector<SourceSurface>& surfaces,
                              const RemeshOptions& options, const Observer& observer);
 

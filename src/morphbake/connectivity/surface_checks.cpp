@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "morphbake/connectivity/polled_points.h"
 #include "morphbake/mesh/closest_point.h"
 
 namespace morphbake {
@@ -45,7 +46,7 @@ Eigen::RowVector3d area_normal(const Mesh& mesh, int triangle) {
 
 /// The source's triangle nearest to the middle of each of some triangles.
 std::vector<int> triangles_below(const Mesh& source, const Mesh& remesh,
-                                 const std::vector<int>& triangles) {
+                                 const std::vector<int>& triangles, const Observer& observer) {
   Positions middles = Positions::Zero(static_cast<Eigen::Index>(triangles.size()), 3);
   for (std::size_t i = 0; i < triangles.size(); ++i) {
     for (const int v : remesh.triangles.row(triangles[i])) {
@@ -54,19 +55,27 @@ std::vector<int> triangles_below(const Mesh& source, const Mesh& remesh,
   }
   std::vector<int> below;
   if (triangles.empty()) return below;
-  for (const SurfacePoint& point : closest_points(source, middles)) below.push_back(point.triangle);
+  for (const SurfacePoint& point : closest_points(source, middles, observer)) {
+    below.push_back(point.triangle);
+  }
   return below;
 }
 
 }  // namespace
 
-double hausdorff_distance(const Mesh& from, const Mesh& to, double error_bound) {
+double hausdorff_distance(const Mesh& from, const Mesh& to, double error_bound,
+                          const Observer& observer) {
+  namespace parameters = CGAL::parameters;
+  Surface a = to_cgal(from), b = to_cgal(to);
+  Poll poll(observer);
   return CGAL::Polygon_mesh_processing::bounded_error_Hausdorff_distance<CGAL::Sequential_tag>(
-      to_cgal(from), to_cgal(to), error_bound);
+      a, b, error_bound, parameters::vertex_point_map(PolledPoints(a, poll)),
+      parameters::vertex_point_map(PolledPoints(b, poll)));
 }
 
 std::vector<int> folded_triangles(const Mesh& source, const Mesh& remesh,
-                                  const std::vector<SurfacePoint>& on_source) {
+                                  const std::vector<SurfacePoint>& on_source,
+                                  const Observer& observer) {
   std::vector<int> suspects;
   for (int f = 0; f < remesh.triangles.rows(); ++f) {
     Eigen::RowVector3d at_corners = Eigen::RowVector3d::Zero();
@@ -76,7 +85,7 @@ std::vector<int> folded_triangles(const Mesh& source, const Mesh& remesh,
     }
     if (area_normal(remesh, f).dot(at_corners) < 0) suspects.push_back(f);
   }
-  const std::vector<int> below = triangles_below(source, remesh, suspects);
+  const std::vector<int> below = triangles_below(source, remesh, suspects, observer);
   std::vector<int> folded;
   for (std::size_t i = 0; i < suspects.size(); ++i) {
     const Eigen::RowVector3d normal = area_normal(remesh, suspects[i]);
@@ -85,12 +94,14 @@ std::vector<int> folded_triangles(const Mesh& source, const Mesh& remesh,
   return folded;
 }
 
-std::vector<std::pair<int, int>> self_intersections(const Mesh& mesh) {
-  const Surface surface = to_cgal(mesh);
+std::vector<std::pair<int, int>> self_intersections(const Mesh& mesh, const Observer& observer) {
+  Surface surface = to_cgal(mesh);
+  Poll poll(observer);
   std::vector<std::pair<Surface::Face_index, Surface::Face_index>> found;
   CGAL::Polygon_mesh_processing::self_intersections<CGAL::Sequential_tag>(
       surface, std::back_inserter(found),
-      CGAL::parameters::maximum_number(static_cast<std::size_t>(kMostSelfIntersections)));
+      CGAL::parameters::vertex_point_map(PolledPoints(surface, poll))
+          .maximum_number(static_cast<std::size_t>(kMostSelfIntersections)));
   std::vector<std::pair<int, int>> pairs;
   for (const auto& [f, g] : found) {
     pairs.emplace_back(static_cast<int>(f.idx()), static_cast<int>(g.idx()));
@@ -98,12 +109,12 @@ std::vector<std::pair<int, int>> self_intersections(const Mesh& mesh) {
   return pairs;
 }
 
-std::vector<char> triangles_near_cuts(const Mesh& mesh) {
+std::vector<char> triangles_near_cuts(const Mesh& mesh, const Observer& observer) {
   std::vector<char> is_corner(static_cast<std::size_t>(mesh.positions.rows()), 0);
   const auto mark = [&](int triangle) {
     for (const int v : mesh.triangles.row(triangle)) is_corner[static_cast<std::size_t>(v)] = 1;
   };
-  for (const auto& [f, g] : self_intersections(mesh)) {
+  for (const auto& [f, g] : self_intersections(mesh, observer)) {
     mark(f);
     mark(g);
   }
@@ -123,7 +134,7 @@ std::vector<std::pair<int, int>> new_cuts(const std::vector<std::pair<int, int>>
   for (const auto& [f, g] : pairs) triangles.insert(triangles.end(), {f, g});
   std::sort(triangles.begin(), triangles.end());
   triangles.erase(std::unique(triangles.begin(), triangles.end()), triangles.end());
-  const std::vector<int> below = triangles_below(source, remesh, triangles);
+  const std::vector<int> below = triangles_below(source, remesh, triangles, {});
   std::vector<char> is_near(static_cast<std::size_t>(remesh.triangles.rows()), 0);
   for (std::size_t i = 0; i < triangles.size(); ++i) {
     is_near[static_cast<std::size_t>(triangles[i])] = near_cuts[static_cast<std::size_t>(below[i])];

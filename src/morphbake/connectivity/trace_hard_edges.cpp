@@ -178,6 +178,7 @@ int trace_hard_edges(LayeredTriangulation& t, int vertex_limit) {
     if (edges.empty()) continue;
     Tracer tracer(t, s);
     for (const Eigen::Vector2i& edge : edges) {
+      stop_if_cancelled(t.observer);
       const bool has_place = t.vertex_count() < vertex_limit;
       missed += !(has_place && tracer.trace(edge(0), edge(1)));
     }

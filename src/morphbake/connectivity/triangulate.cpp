@@ -46,8 +46,10 @@ void relax_with_flips(LayeredTriangulation& t, double tolerance) {
 
 /// A coarse triangulation that meets all sources roughly and differs little between them.
 LayeredTriangulation first_triangulation(const std::vector<SphericalMap>& maps,
-                                         SourcePoints& points, int vertex_limit) {
-  LayeredTriangulation t = coarse_triangulation(maps, std::min(kCoarseVertices, vertex_limit));
+                                         SourcePoints& points, int vertex_limit,
+                                         const Observer& observer) {
+  LayeredTriangulation t =
+      coarse_triangulation(maps, std::min(kCoarseVertices, vertex_limit), observer);
   points = source_points(t);
   for (int round = 0; round < 3; ++round) {
     split_long_edges(t, 0.1, vertex_limit);
@@ -88,7 +90,7 @@ SharedTriangulation triangulate(const std::vector<SphericalMap>& maps, const Rem
   // Half of what is asked: between the points that are looked at surfaces are further apart.
   const double goal = 0.5 * options.max_error;
   SourcePoints points;
-  LayeredTriangulation t = first_triangulation(maps, points, limit);
+  LayeredTriangulation t = first_triangulation(maps, points, limit, observer);
   double tolerance = kCoarseTolerance;
   double length = 0.2;
   bool has_followed = true;
@@ -118,6 +120,7 @@ SharedTriangulation triangulate(const std::vector<SphericalMap>& maps, const Rem
   advance(observer, {"triangulation", kRounds, kRounds});
   SharedTriangulation shared = shared_triangulation(t);
   shared.rounded_hard_edges = missed;
+  shared.is_full = shared.connectivity.vertex_count >= limit;
   return shared;
 }
 

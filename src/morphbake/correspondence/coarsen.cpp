@@ -33,6 +33,7 @@ class Coarsening {
     for (const int v : layout.surface->landmarks) is_landmark_[index(v)] = 1;
     const ClosedMesh& mesh = layout.mesh;
     for (int f = 0; f < mesh.triangle_slots(); ++f) {
+      if (f % kStride == 0) stop_if_cancelled(observer);
       if (mesh.has_triangle(f)) add_plane(f);
     }
     push_all(kCrowded);
@@ -92,6 +93,7 @@ class Coarsening {
   void push_all(int most_neighbours) {
     const ClosedMesh& mesh = layout_.mesh;
     for (int v = 0; v < mesh.vertex_slots(); ++v) {
+      if (v % kStride == 0) stop_if_cancelled(observer_);
       if (!mesh.has_vertex(v) || v == layout_.surface->apex) continue;
       if (!mesh.has_valence_above(v, most_neighbours)) push_around(v);
     }

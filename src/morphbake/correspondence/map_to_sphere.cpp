@@ -68,11 +68,16 @@ void add_not_distinct(const SourceSurface& source, const CappedSurface& capped,
 }
 
 /// The sources closed, with all that is wrong about them told at once.
-std::vector<CappedSurface> cap_all(const std::vector<SourceSurface>& sources) {
+std::vector<CappedSurface> cap_all(const std::vector<SourceSurface>& sources,
+                                   const Observer& observer) {
   std::vector<Problem> problems = topology_problems(sources);
   if (!problems.empty()) throw BakeError(std::move(problems));
   std::vector<CappedSurface> capped;
-  for (const SourceSurface& source : sources) capped.push_back(cap_surface(source));
+  for (const SourceSurface& source : sources) {
+    stop_if_cancelled(observer);
+    capped.push_back(cap_surface(source));
+  }
+  stop_if_cancelled(observer);
   add_off_border(sources, capped, problems);
   for (std::size_t s = 0; s < sources.size(); ++s) {
     add_not_distinct(sources[s], capped[s], problems);
@@ -144,7 +149,10 @@ std::vector<SphereLayout> lay_out(const std::vector<SourceSurface>& sources,
                                   const std::vector<CappedSurface>& capped,
                                   const Observer& observer) {
   std::vector<SphereLayout> coarse;
-  for (const CappedSurface& surface : capped) coarse.push_back(make_layout(surface));
+  for (const CappedSurface& surface : capped) {
+    stop_if_cancelled(observer);
+    coarse.push_back(make_layout(surface));
+  }
   for_each_layout(coarse, [&](SphereLayout& layout) {
     coarsen(layout, layout.surface->apex < 0 ? 4 : 5, {}, observer);
   });
@@ -233,7 +241,7 @@ void verify(const std::vector<SourceSurface>& sources, const std::vector<Spheric
 std::vector<SphericalMap> map_to_sphere(const std::vector<SourceSurface>& sources,
                                         const Observer& observer) {
   advance(observer, {"correspondence", 0, kSteps});
-  const std::vector<CappedSurface> capped = cap_all(sources);
+  const std::vector<CappedSurface> capped = cap_all(sources, observer);
   std::vector<SphereLayout> layouts = lay_out(sources, capped, observer);
   for_each_layout(layouts, [&](SphereLayout& layout) {
     refine(layout, layout.mesh.vertex_slots(), observer);
@@ -241,8 +249,10 @@ std::vector<SphericalMap> map_to_sphere(const std::vector<SourceSurface>& source
   });
   advance(observer, {"correspondence", 3, kSteps});
   std::vector<SphericalMap> maps;
-  for (std::size_t s = 0; s < sources.size(); ++s)
+  for (std::size_t s = 0; s < sources.size(); ++s) {
+    stop_if_cancelled(observer);
     maps.push_back(map_of(sources[s], capped[s], layouts[s]));
+  }
   verify(sources, maps, capped[0].apex >= 0);
   advance(observer, {"correspondence", kSteps, kSteps});
   return maps;

@@ -15,6 +15,8 @@ using Point = Kernel::Point_3;
 using Triangle = Kernel::Triangle_3;
 using Iterator = std::vector<Triangle>::const_iterator;
 using Primitive = CGAL::AABB_triangle_primitive<Kernel, Iterator>;
+constexpr Eigen::Index kStride = 1024;  // points between two looks whether to stop
+
 using Tree = CGAL::AABB_tree<CGAL::AABB_traits<Kernel, Primitive>>;
 
 std::vector<Triangle> triangles_of(const Mesh& mesh) {
@@ -53,12 +55,14 @@ Eigen::Vector3d position_of(const Mesh& mesh, const SurfacePoint& at) {
   return position;
 }
 
-std::vector<SurfacePoint> closest_points(const Mesh& mesh, const Positions& positions) {
+std::vector<SurfacePoint> closest_points(const Mesh& mesh, const Positions& positions,
+                                         const Observer& observer) {
   const std::vector<Triangle> triangles = triangles_of(mesh);
   Tree tree(triangles.begin(), triangles.end());
   std::vector<SurfacePoint> points;
   points.reserve(static_cast<std::size_t>(positions.rows()));
   for (Eigen::Index i = 0; i < positions.rows(); ++i) {
+    if (i % kStride == 0) stop_if_cancelled(observer);
     const auto [point, found] =
         tree.closest_point_and_primitive(Point(positions(i, 0), positions(i, 1), positions(i, 2)));
     const auto triangle = static_cast<int>(found - triangles.begin());

@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "morphbake/diagnostics/observer.h"
 #include "morphbake/mesh/mesh.h"
 
 namespace morphbake {
@@ -16,6 +17,9 @@ Eigen::Vector3d position_of(const Mesh& mesh, const SurfacePoint& at);
 SurfacePoint closest_point(const Mesh& mesh, const Eigen::Vector3d& position);
 
 /// The closest point of the surface to each row of `positions`: one search tree for all.
-std::vector<SurfacePoint> closest_points(const Mesh& mesh, const Positions& positions);
+///
+/// @throws Cancelled
+std::vector<SurfacePoint> closest_points(const Mesh& mesh, const Positions& positions,
+                                         const Observer& observer = {});
 
 }  // namespace morphbake

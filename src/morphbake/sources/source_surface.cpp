@@ -30,6 +30,7 @@ SourceSurface source_surface(const SourceMesh& source, const SourceRef& ref,
   CornerSurface corners =
       surface_of_corners(classes, without_duplicates(classes, proper_triangles(classes)));
   wind_as_seen(source, corners);
+  stop_if_cancelled(observer);
 
   SourceSurface surface;
   surface.name = source.name;
@@ -38,10 +39,12 @@ SourceSurface source_surface(const SourceMesh& source, const SourceRef& ref,
   const Mesh mesh{vertex_positions(source, corners), corners.connectivity.triangles};
   const bool is_manifold =
       passes([&] { check_manifold(source, corners.connectivity, mesh.positions); }, problems);
+  stop_if_cancelled(observer);
   if (mesh.triangles.rows() > 0) {
     passes([&] { surface.landmarks = landmark_points(source, corners, mesh, ref, observer); },
            problems);
   }
+  stop_if_cancelled(observer);
   if (!is_manifold) return surface;
   surface.mesh = mesh;
   surface.vertex_of_render.assign(static_cast<std::size_t>(source.positions.rows()), -1);

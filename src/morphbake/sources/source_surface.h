@@ -28,7 +28,7 @@ struct SourceSurface {
 /// Triangles that repeat a point or all points of an earlier one are dropped. Landmarks are put on
 /// the surface by landmark_points, hard edges found by find_hard_edges.
 /// @param ref  gives the landmarks
-/// @throws BakeError "connectivity.empty", "connectivity.not-manifold", "landmarks...."
+/// @throws BakeError "connectivity.empty", "connectivity.not-manifold", "landmarks...."; Cancelled
 SourceSurface source_surface(const SourceMesh& source, const SourceRef& ref,
                              const Observer& observer);
 

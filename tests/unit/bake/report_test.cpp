@@ -17,9 +17,10 @@ ConnectivityReport full_connectivity() {
   return {ConnectivityMode::Remesh, 8, 12, {{"sphere", 0.5}}, quality};
 }
 
-SharedTriangulation of_vertices(int count) {
+SharedTriangulation of_vertices(int count, bool is_full = false) {
   SharedTriangulation triangulation;
   triangulation.connectivity.vertex_count = count;
+  triangulation.is_full = is_full;
   return triangulation;
 }
 
@@ -111,16 +112,28 @@ TEST(ConnectivityWarnings, TellWhatTheLimitOfVerticesLeftUndone) {
   quality.sources.emplace_back().source = "cow";
   quality.sources[0].source_to_remesh = 0.01;
   quality.sources[0].longest_edge = 0.3;
-  std::vector<Problem> warnings = connectivity_warnings(recipe, of_vertices(100), quality);
+  std::vector<Problem> warnings = connectivity_warnings(recipe, of_vertices(98, true), quality);
   ASSERT_EQ(warnings.size(), 2U);
   EXPECT_EQ(warnings[0].code, "connectivity.error-not-reached");
   EXPECT_EQ(warnings[0].message,
             "\"cow\" is met within 0.01 of its diagonal, not within max_error (0.002); refinement "
             "ended at max_vertices (100)");
   EXPECT_EQ(warnings[1].code, "connectivity.edge-length-not-reached");
-  warnings = connectivity_warnings(recipe, of_vertices(99), quality);
+  warnings = connectivity_warnings(recipe, of_vertices(98), quality);
   ASSERT_EQ(warnings.size(), 1U);
   EXPECT_EQ(warnings[0].message.find("max_vertices"), std::string::npos);
+}
+
+TEST(ConnectivityWarnings, SayNothingOfAnErrorThatAUniformResampleWasNotAskedFor) {
+  Recipe recipe;
+  recipe.connectivity.mode = ConnectivityMode::Resample;
+  TriangulationQuality quality;
+  quality.sources.emplace_back().source_to_remesh = 0.01;
+  EXPECT_EQ(connectivity_warnings(recipe, of_vertices(100), quality).size(), 1U);
+  recipe.connectivity.sizing = VertexSizing::Uniform;
+  EXPECT_TRUE(connectivity_warnings(recipe, of_vertices(100), quality).empty());
+  recipe.connectivity.mode = ConnectivityMode::Remesh;
+  EXPECT_EQ(connectivity_warnings(recipe, of_vertices(100), quality).size(), 1U);
 }
 
 }  // namespace

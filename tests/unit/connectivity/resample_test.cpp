@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include "morphbake/connectivity/measure_triangulation.h"
 #include "morphbake/connectivity/shared_triangulation.h"
 #include "morphbake/diagnostics/problem.h"
 #include "morphbake/mesh/closest_point.h"
@@ -78,6 +79,47 @@ TEST(Resample, ReachesTheErrorThatIsAskedFor) {
   fine.max_error = 0.004;
   EXPECT_GT(resample(surfaces, fine, {}).connectivity.vertex_count,
             2 * resample(surfaces, coarse, {}).connectivity.vertex_count);
+}
+
+TEST(Resample, IsWithinTheErrorAsItIsMeasured) {
+  const std::vector<SourceSurface> surfaces = surfaces_of(test::sphere(40, 60));
+  RemeshOptions options;
+  options.target_edge_length = 0.2;
+  for (const double error : {0.02, 0.01, 0.005}) {
+    options.max_error = error;
+    const SharedTriangulation k = resample(surfaces, options, {});
+    EXPECT_FALSE(k.is_full);
+    for (const SourceQuality& quality : measure_triangulation(surfaces, k).sources) {
+      EXPECT_LE(std::max(quality.source_to_remesh, quality.remesh_to_source), error);
+    }
+  }
+}
+
+TEST(Resample, UsesAllVerticesBeforeItLeavesTheErrorUnmet) {
+  const std::vector<SourceSurface> surfaces = surfaces_of(test::sphere(40, 60));
+  RemeshOptions options;
+  options.target_edge_length = 0.2;
+  options.max_error = 1e-5;
+  for (const int limit : {1000, 1300, 1700}) {
+    options.max_vertices = limit;
+    const SharedTriangulation k = resample(surfaces, options, {});
+    EXPECT_TRUE(k.is_full);
+    EXPECT_GT(k.connectivity.vertex_count, 0.93 * limit);
+    EXPECT_LE(k.connectivity.vertex_count, limit);
+  }
+}
+
+TEST(Resample, StopsInsideOfARemeshingWhenItIsCancelled) {
+  const std::vector<SourceSurface> surfaces = surfaces_of(test::sphere(40, 60));
+  RemeshOptions options;
+  options.target_edge_length = 0.02;
+  Observer observer;
+  int asked = 0, attempts = 0;
+  observer.on_progress = [&](const Progress&) { ++attempts; };
+  observer.is_cancelled = [&] { return ++asked == 50; };
+  EXPECT_THROW(resample(surfaces, options, observer), Cancelled);
+  EXPECT_EQ(asked, 50);
+  EXPECT_EQ(attempts, 1);
 }
 
 }  // namespace
