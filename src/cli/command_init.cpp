@@ -5,6 +5,7 @@
 
 #include "cli/commands.h"
 #include "morphbake/bake/bake.h"
+#include "morphbake/bake/first_choices.h"
 #include "morphbake/files/files.h"
 #include "morphbake/recipe/read_recipe.h"
 
@@ -22,6 +23,20 @@ struct Arguments {
       Problem{Severity::Error, "usage.would-overwrite", {file.string(), "", 0, 0}, message, hint});
 }
 
+/// What the recipe has to say, by a draft that is not kept.
+FirstChoices choices_for(const Arguments& arguments, const Observer& observer) {
+  PendingOutputs never_committed;
+  const std::filesystem::path draft = never_committed.stage(
+      arguments.recipe, first_recipe(arguments.sources, arguments.recipe, ""));
+  Recipe recipe = read_recipe(draft);
+  // Messages name what the user knows.
+  recipe.file = arguments.recipe;
+  for (std::size_t i = 0; i < arguments.sources.size(); ++i) {
+    recipe.sources[i].file = arguments.sources[i];
+  }
+  return first_choices(recipe, observer);
+}
+
 void run_init(const Arguments& arguments, Terminal& terminal) {
   if (!arguments.force && std::filesystem::exists(arguments.recipe)) {
     refuse(arguments.recipe, "the file exists",
@@ -32,12 +47,15 @@ void run_init(const Arguments& arguments, Terminal& terminal) {
     if (!std::filesystem::equivalent(source, arguments.recipe, error) || error) continue;
     refuse(arguments.recipe, "this is one of the sources", "choose another name with --output");
   }
+  const std::filesystem::path schema = shipped_schema_file("recipe.schema.json");
   PendingOutputs outputs;
-  const std::filesystem::path staged = outputs.stage(
-      arguments.recipe,
-      first_recipe(arguments.sources, arguments.recipe, shipped_schema_file("recipe.schema.json")));
-  // What it writes shall bake: the sources must be glTF and share their triangles.
-  validate(read_recipe(staged), {}, terminal.observer());
+  const std::filesystem::path staged =
+      outputs.stage(arguments.recipe, first_recipe(arguments.sources, arguments.recipe, schema,
+                                                   choices_for(arguments, terminal.observer())));
+  // What it writes shall bake.
+  Recipe recipe = read_recipe(staged);
+  recipe.file = arguments.recipe;
+  validate(recipe, {}, terminal.observer());
   outputs.commit();
   terminal.result(arguments.recipe.string());
   terminal.note(fmt::format("next: morphbake bake {}", arguments.recipe.string()));

@@ -73,9 +73,9 @@ const without = (...faces) => (mesh) => ({ points: mesh.points, faces: mesh.face
 refused('all_at_once', 2, [
   '#/sources/a/landmarks/far: error: (9, 9, 9) is ', '[landmarks.off-surface]',
   '#/sources/b/landmarks/left: error: "front" and "left" lie at one point of "b" [landmarks.same-point]',
-  'error: the sources have 2 landmarks in common; 3 are needed [landmarks.too-few]',
-  'error: "a" lacks landmarks that other sources have: left, back [landmarks.missing]',
-  'error: "b" lacks landmarks that other sources have: far [landmarks.missing]',
+  '#/sources/a/landmarks: error: the sources have 2 landmarks in common; 3 are needed [landmarks.too-few]',
+  '#/sources/a/landmarks: error: "a" lacks landmarks that other sources have: left, back [landmarks.missing]',
+  '#/sources/b/landmarks: error: "b" lacks landmarks that other sources have: far [landmarks.missing]',
   'error: "a" has 2 holes, one of 3 edges at (', '[correspondence.holes]',
   'b.gltf: error: "b" has 1 handle, as a cup has; a remesh takes none [correspondence.handles]',
 ], ball(without(40, 200), { ...landmarks(undefined, ['top', 'front']), far: { position: [9, 9, 9] } }),
@@ -119,7 +119,7 @@ refused('turned_triangle', 4, ['[connectivity.not-manifold]', 'hint: in Blender:
   ball((mesh) => ({ points: mesh.points, faces: mesh.faces.map((face, f) => (f === 50 ? [face[0], face[2], face[1]] : face)) })), good);
 refused('open_and_closed', 4, ['error: "b" is closed but "a" is open (it has a border, one of 3 edges at (', '[correspondence.different-topology]'],
   ball(without(40)), good);
-refused('inside_out', 4, ['[correspondence.mirrored]', 'hint: "a" is inside out; in Blender: Mesh > Normals > Recalculate Outside'],
+refused('inside_out', 4, ['a.gltf: error: "a" is inside out: ', '[correspondence.mirrored]', 'hint: in Blender: Mesh > Normals > Recalculate Outside'],
   ball(turned), good);
 const mirrored = ([x, y, z]) => [-x, y, z];
 refused('mirrored', 4, ['[correspondence.mirrored]', 'hint: swap its left and right landmarks, or mirror the mesh'],

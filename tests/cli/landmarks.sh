@@ -30,6 +30,13 @@ refused '{"version": 1, "landmarks": {"a": {"vertex": 999999}}}' landmarks.out-o
 refused '{"version": 1, "landmarks": {"a": {"vertex": 0}, "b": {"vertex": 0}}}' landmarks.same-point
 refused '{"version": 1, "landmarks": {"a": {"vertex": 0}, "a": {"vertex": 1}}}' json.duplicate-key
 refused '{"version": 1, "landmarks": {' json.syntax
+refused "$(jq -nc '{version: 1, landmarks: ([range(1001) | {key: "p\(.)", value: {vertex: .}}] | from_entries)}')" \
+  landmarks.bad-value
+stderr_has "landmarks must have at most 1000 entries, not 1001"
+# One point is told once, however many landmarks are there.
+refused "$(jq -nc '{version: 1, landmarks: ([range(9) | {key: "p\(.)", value: {vertex: 0}}] | from_entries)}')" \
+  landmarks.same-point
+[ "$(grep -c same-point "$scratch/stderr")" = 1 ] || wrong "one point is told several times"
 rm broken.json
 run 4 landmarks suggest "$shapes/cow.landmarks.json" "$shapes/pig.glb" -o out
 stderr_has "[gltf.not-gltf]"
@@ -56,6 +63,12 @@ run 2 landmarks suggest "$shapes/cow.glb" "$shapes/pig.glb" -o out
 run 0 landmarks suggest "$shapes/cow.glb" "$shapes/pig.glb" -o out --force --threads 1
 run 0 landmarks suggest "$shapes/cow.glb" "$shapes/pig.glb" -o again
 diff -r out again || wrong "two runs differ"
+
+run 0 landmarks suggest "$shapes/cow.glb" "$shapes/pig.glb" -o many --count 100
+stderr_has "[landmarks.fewer]"
+stderr_has "$(jq '.landmarks | length' many/cow.landmarks.json) landmarks of the 100 wanted were found"
+run 0 landmarks suggest "$shapes/face.glb" "$shapes/pig.glb" -o mixed
+stderr_has "warning: \"face\" is open (it has a border) but \"pig\" is closed: they cannot be remeshed together"
 
 run 0 landmarks show "$shapes/cow.glb" --landmarks out/cow.landmarks.json -o show.png
 stdout_has "show.png"

@@ -8,6 +8,7 @@
 namespace morphbake {
 namespace {
 
+constexpr double kLeastShare = 0.001;   // of the area: smaller regions nobody sees
 constexpr double kClearlyLonger = 1.5;  // than asked for; relaxing edges lengthens some
 
 Problem warning(const Recipe& recipe, const char* code, std::string message, std::string hint) {
@@ -49,11 +50,12 @@ void add_size_warnings(const Recipe& recipe, bool ended_by_limit, const SourceQu
 void add_source_warnings(const Recipe& recipe, const SourceQuality& quality,
                          std::vector<Problem>& warnings) {
   if (quality.folds > 0) {
-    warnings.push_back(
-        warning(recipe, "connectivity.folds",
-                fmt::format("{} new triangles of \"{}\" face against its surface", quality.folds,
-                            quality.source),
-                "look at the red places of the sheet; landmarks there, or a finer mesh, help"));
+    warnings.push_back(warning(
+        recipe, "connectivity.folds",
+        fmt::format("{} new triangles of \"{}\" face against its surface", quality.folds,
+                    quality.source),
+        "more landmarks, at the tips above all, or a smaller target_edge_length help; `morphbake "
+        "remesh` draws a sheet of the new triangles"));
   }
   if (quality.new_self_intersections > 0) {
     warnings.push_back(warning(
@@ -64,17 +66,50 @@ void add_source_warnings(const Recipe& recipe, const SourceQuality& quality,
   }
 }
 
+std::string shown_point(const Eigen::RowVector3d& point) {
+  return fmt::format("({:.4g}, {:.4g}, {:.4g})", point(0), point(1), point(2));
+}
+
+/// Share of the source on which it is larger. Triangles without area have none.
+double largest_share(const DistortionRegion& region) {
+  return std::max(region.area_share, region.other_area_share);
+}
+
+/// The largest region of the map to a source; null when none is worth a word.
+const DistortionRegion* largest_region(const TriangulationQuality& quality,
+                                       const std::string& source) {
+  const DistortionRegion* largest = nullptr;
+  for (const DistortionRegion& region : quality.regions) {
+    if (region.source != source || largest_share(region) < kLeastShare) continue;
+    if (largest == nullptr || largest_share(region) > largest_share(*largest)) largest = &region;
+  }
+  return largest;
+}
+
+/// @param first  name of the first source
+Problem distortion_warning(const Recipe& recipe, const DistortionRegion& region,
+                           const std::string& first) {
+  return warning(recipe, "connectivity.high-distortion",
+                 fmt::format("{} triangles, {:.2g} % of the area of \"{}\" and {:.2g} % of \"{}\", "
+                             "are distorted more than {:g} times",
+                             region.triangles, 100 * region.area_share, first,
+                             100 * region.other_area_share, region.source, kHighDistortion),
+                 advice_for(region, first));
+}
+
 }  // namespace
 
-std::string advice_for(const DistortionRegion& region) {
-  const Eigen::RowVector3d& at = region.centre;
-  const std::string place = fmt::format("({:.4g}, {:.4g}, {:.4g})", at(0), at(1), at(2));
+std::string advice_for(const DistortionRegion& region, const std::string& first) {
   if (region.nearest_landmark.empty()) {
-    return fmt::format("add a landmark at the tip near {} on every source", place);
+    return fmt::format(
+        "add a landmark on every source; the middle of the region is near {} on \"{}\"",
+        shown_point(region.centre), first);
   }
   return fmt::format(
-      "add a landmark at the tip near {}, {:.2g} of the diagonal from \"{}\", on every source",
-      place, region.landmark_distance, region.nearest_landmark);
+      "add a landmark on every source; the region ends near {} on \"{}\", {:.2g} of the diagonal "
+      "from \"{}\"",
+      shown_point(region.end), region.ends_on_other ? region.source : first, region.end_distance,
+      region.nearest_landmark);
 }
 
 std::vector<Problem> connectivity_warnings(const Recipe& recipe,
@@ -95,17 +130,10 @@ std::vector<Problem> connectivity_warnings(const Recipe& recipe,
     add_source_warnings(recipe, source, warnings);
   }
   for (const MapQuality& map : quality.maps) {
-    const auto largest =
-        std::find_if(quality.regions.begin(), quality.regions.end(),
-                     [&](const DistortionRegion& region) { return region.source == map.source; });
-    if (largest == quality.regions.end()) continue;
-    warnings.push_back(warning(
-        recipe, "connectivity.high-distortion",
-        fmt::format("{} triangles of {:.2g} % of the area are distorted more than {:g} times on "
-                    "the way to \"{}\"; the worst triangle {:.3g} times",
-                    largest->triangles, 100 * largest->area_share, kHighDistortion, map.source,
-                    map.maximum),
-        advice_for(*largest)));
+    const DistortionRegion* largest = largest_region(quality, map.source);
+    if (largest != nullptr) {
+      warnings.push_back(distortion_warning(recipe, *largest, quality.sources.front().source));
+    }
   }
   return warnings;
 }

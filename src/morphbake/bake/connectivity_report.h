@@ -28,7 +28,9 @@ std::vector<Problem> connectivity_warnings(const Recipe& recipe,
                                            const SharedTriangulation& triangulation,
                                            const TriangulationQuality& quality);
 
-/// What helps a region of high distortion: "add a landmark at the tip ...".
-std::string advice_for(const DistortionRegion& region);
+/// What helps a region of high distortion: "add a landmark ...".
+///
+/// @param first  name of the first source
+std::string advice_for(const DistortionRegion& region, const std::string& first);
 
 }  // namespace morphbake

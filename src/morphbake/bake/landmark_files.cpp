@@ -1,5 +1,7 @@
 #include "morphbake/bake/landmark_files.h"
 
+#include <fmt/core.h>
+
 #include <string>
 #include <utility>
 
@@ -57,6 +59,21 @@ std::vector<Landmark> landmarks_at(const std::vector<std::string>& names,
   return landmarks;
 }
 
+/// Tells when there are fewer than were asked for.
+void warn_of_fewer(const LandmarkRequest& request, const SuggestedLandmarks& suggested,
+                   const Observer& observer) {
+  const auto found = static_cast<int>(suggested.names.size());
+  if (found >= request.count) return;
+  report(observer,
+         {Severity::Warning,
+          "landmarks.fewer",
+          {request.b.string(), ""},
+          fmt::format("{} landmarks of the {} wanted were found: more would lie too close to "
+                      "these",
+                      found, request.count),
+          ""});
+}
+
 }  // namespace
 
 std::vector<fs::path> write_suggested_landmarks(const LandmarkRequest& request,
@@ -82,6 +99,7 @@ std::vector<fs::path> write_suggested_landmarks(const LandmarkRequest& request,
   const std::vector<SourceSurface> surfaces = surfaces_of({request.a, request.b}, observer);
   const SuggestedLandmarks suggested =
       suggest_landmarks(surfaces[0], surfaces[1], {request.count}, observer);
+  warn_of_fewer(request, suggested, observer);
   const Image sheet = render_landmark_sheet(
       {{request.a.stem().string(), read_animated_mesh(request.a), suggested.a},
        {request.b.stem().string(), read_animated_mesh(request.b), suggested.b}},

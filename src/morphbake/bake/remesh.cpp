@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include <map>
 #include <utility>
 
 #include "morphbake/bake/connect_sources.h"
@@ -16,6 +17,42 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// Names that only some file systems tell apart are equal here.
+std::string small_letters(std::string name) {
+  for (char& letter : name) {
+    if (letter >= 'A' && letter <= 'Z') letter = static_cast<char>(letter - 'A' + 'a');
+  }
+  return name;
+}
+
+/// Sources whose names cannot be those of files, or of one file.
+std::vector<Problem> name_problems(const Recipe& recipe) {
+  std::vector<Problem> problems;
+  std::map<std::string, std::string> taken;
+  const auto complain = [&](const SourceRef& source, std::string message, const char* hint) {
+    problems.push_back({Severity::Error,
+                        "recipe.bad-value",
+                        {recipe.file.string(), child_pointer("/sources", source.name), 0, 0},
+                        std::move(message),
+                        hint});
+  };
+  for (const SourceRef& source : recipe.sources) {
+    const bool is_folder = source.name == "." || source.name == "..";
+    if (is_folder || source.name.find_first_of("/\\") != std::string::npos) {
+      complain(source, fmt::format("\"{}\" is no file name", source.name),
+               is_folder ? "the source's name becomes that of a file: use letters"
+                         : "the source's name becomes that of a file: leave slashes out");
+    }
+    const auto [entry, is_new] = taken.try_emplace(small_letters(source.name), source.name);
+    if (is_new) continue;
+    complain(source,
+             fmt::format("\"{}\" and \"{}\" are one file on Windows and macOS", entry->second,
+                         source.name),
+             "the sources' names become those of files: let them differ in more than capitals");
+  }
+  return problems;
+}
+
 /// Before any work: whether there is work, and whether it would replace what it reads.
 void check_request(const Recipe& recipe, const std::vector<fs::path>& files) {
   std::vector<Problem> problems;
@@ -26,14 +63,7 @@ void check_request(const Recipe& recipe, const std::vector<fs::path>& files) {
                         "the mode \"shared\" makes no new triangles",
                         "write \"connectivity\": {\"mode\": \"remesh\"} or \"resample\""});
   }
-  for (const SourceRef& source : recipe.sources) {
-    if (source.name.find_first_of("/\\") == std::string::npos) continue;
-    problems.push_back({Severity::Error,
-                        "recipe.bad-value",
-                        {recipe.file.string(), child_pointer("/sources", source.name), 0, 0},
-                        fmt::format("\"{}\" is no file name", source.name),
-                        "the source's name becomes that of a file: leave slashes out"});
-  }
+  for (Problem& problem : name_problems(recipe)) problems.push_back(std::move(problem));
   for (const fs::path& file : files) {
     for (const SourceRef& source : recipe.sources) {
       std::error_code error;

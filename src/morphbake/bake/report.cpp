@@ -101,7 +101,7 @@ Json to_json(const MapQuality& map) {
           {"maximum", map.maximum}};
 }
 
-Json to_json(const DistortionRegion& region) {
+Json to_json(const DistortionRegion& region, const std::string& first) {
   Json json = {{"source", region.source},
                {"triangles", region.triangles},
                {"area_share", region.area_share},
@@ -110,7 +110,7 @@ Json to_json(const DistortionRegion& region) {
     json["nearest_landmark"] = region.nearest_landmark;
     json["landmark_distance"] = region.landmark_distance;
   }
-  json["advice"] = advice_for(region);
+  json["advice"] = advice_for(region, first);
   return json;
 }
 
@@ -130,7 +130,11 @@ Json to_json(const ConnectivityReport& report) {
   if (!report.quality) return json;
   json["sources"] = list_of(report.quality->sources);
   json["distortion"] = list_of(report.quality->maps);
-  json["distorted_regions"] = list_of(report.quality->regions);
+  const std::string& first = report.quality->sources.front().source;
+  json["distorted_regions"] = Json::array();
+  for (const DistortionRegion& region : report.quality->regions) {
+    json["distorted_regions"].push_back(to_json(region, first));
+  }
   return json;
 }
 

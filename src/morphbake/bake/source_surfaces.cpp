@@ -80,14 +80,14 @@ std::vector<SourceSurface> own_surfaces(const Recipe& recipe,
     stop_if_cancelled(observer);
     surfaces.push_back(source_surface(sources[s], recipe.sources[s], observer, problems));
   }
-  for (Problem& problem : common_landmark_problems(surfaces)) {
+  for (Problem& problem : common_landmark_problems(surfaces, recipe.sources)) {
     if (problem.severity == Severity::Error) problems.push_back(std::move(problem));
   }
   stop_if_cancelled(observer);
   for (Problem& problem : topology_problems(surfaces)) problems.push_back(std::move(problem));
   stop_if_cancelled(observer);
   if (!problems.empty()) throw BakeError(std::move(problems));
-  surfaces = with_common_landmarks(std::move(surfaces), observer);
+  surfaces = with_common_landmarks(std::move(surfaces), recipe.sources, observer);
   check_room(recipe, surfaces.front().landmarks.size());
   return surfaces;
 }

@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <numeric>
@@ -67,16 +68,46 @@ std::vector<int> label_sets(const Triangles& triangles, const std::vector<char>&
   return labels;
 }
 
-void name_nearest_landmark(const SharedTriangulation& triangulation,
-                           const std::vector<std::string>& names, DistortionRegion& region) {
+/// @param diagonal  of the first source
+/// @return  the landmark's number, or -1
+int name_nearest_landmark(const SharedTriangulation& triangulation, double diagonal,
+                          const std::vector<std::string>& names, DistortionRegion& region) {
   const Positions& positions = triangulation.geometries[0];
-  const double diagonal = bounding_diagonal(positions);
+  int nearest = -1;
   for (std::size_t i = 0; i < names.size(); ++i) {
     const double distance =
         (positions.row(triangulation.landmarks[i]) - region.centre).norm() / diagonal;
     if (!region.nearest_landmark.empty() && !(distance < region.landmark_distance)) continue;
     region.nearest_landmark = names[i];
     region.landmark_distance = distance;
+    nearest = static_cast<int>(i);
+  }
+  return nearest;
+}
+
+/// A region of the map to `other`: its triangles, and the vertex of the landmark nearest to it.
+struct RegionPlace {
+  std::size_t other = 0;
+  std::vector<int> triangles;
+  int landmark = 0;
+};
+
+/// Finds the point of the region furthest from its landmark: there a part ends that sticks out.
+void find_end(const SharedTriangulation& triangulation, const RegionPlace& place,
+              const std::array<double, 2>& diagonals, DistortionRegion& region) {
+  for (const std::size_t side : {std::size_t{0}, std::size_t{1}}) {
+    const Positions& positions = triangulation.geometries[side == 0 ? 0 : place.other];
+    const Eigen::RowVector3d from = positions.row(place.landmark);
+    for (const int f : place.triangles) {
+      for (int k = 0; k < 3; ++k) {
+        const Eigen::RowVector3d at = positions.row(triangulation.connectivity.triangles(f, k));
+        const double distance = (at - from).norm() / diagonals[side];
+        if (!(distance > region.end_distance)) continue;
+        region.end_distance = distance;
+        region.end = at;
+        region.ends_on_other = side == 1;
+      }
+    }
   }
 }
 
@@ -123,21 +154,34 @@ std::vector<DistortionRegion> find_distortion_regions(const SharedTriangulation&
   const Eigen::VectorXd distortion =
       map_distortion(positions, triangulation.geometries[other], triangles);
   const Eigen::VectorXd areas = triangle_areas(positions, triangles);
+  const Eigen::VectorXd other_areas = triangle_areas(triangulation.geometries[other], triangles);
+  const double area = areas.sum(), other_area = other_areas.sum();
+  const std::array<double, 2> diagonals = {bounding_diagonal(positions),
+                                           bounding_diagonal(triangulation.geometries[other])};
   std::vector<char> marked;
   for (const double value : distortion) marked.push_back(value > kHighDistortion ? 1 : 0);
   int count = 0;
   const std::vector<int> labels = label_sets(triangles, marked, count);
   std::vector<DistortionRegion> regions(static_cast<std::size_t>(count));
+  std::vector<RegionPlace> places(regions.size());
   for (int f = 0; f < triangles.rows(); ++f) {
-    if (labels[static_cast<std::size_t>(f)] < 0) continue;
-    auto& region = regions[static_cast<std::size_t>(labels[static_cast<std::size_t>(f)])];
+    const int label = labels[static_cast<std::size_t>(f)];
+    if (label < 0) continue;
+    auto& region = regions[static_cast<std::size_t>(label)];
+    places[static_cast<std::size_t>(label)].triangles.push_back(f);
     ++region.triangles;
-    region.area_share += areas(f) / areas.sum();
+    region.area_share += areas(f) / area;
+    region.other_area_share += other_areas(f) / other_area;
     for (int k = 0; k < 3; ++k) region.centre += positions.row(triangles(f, k));
   }
-  for (DistortionRegion& region : regions) {
+  for (std::size_t r = 0; r < regions.size(); ++r) {
+    DistortionRegion& region = regions[r];
     region.centre /= 3 * region.triangles;
-    name_nearest_landmark(triangulation, names, region);
+    const int landmark = name_nearest_landmark(triangulation, diagonals[0], names, region);
+    if (landmark < 0) continue;
+    places[r].other = other;
+    places[r].landmark = triangulation.landmarks[static_cast<std::size_t>(landmark)];
+    find_end(triangulation, places[r], diagonals, region);
   }
   std::stable_sort(regions.begin(), regions.end(),
                    [](const auto& a, const auto& b) { return a.area_share > b.area_share; });

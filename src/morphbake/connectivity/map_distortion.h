@@ -35,9 +35,14 @@ struct DistortionRegion {
   std::string source;  ///< the other
   int triangles = 0;
   double area_share = 0;                                   ///< of the first source's area, 0 to 1
+  double other_area_share = 0;                             ///< of the other's
   Eigen::RowVector3d centre = Eigen::RowVector3d::Zero();  ///< on the first source, scene units
   std::string nearest_landmark;                            ///< "" without landmarks
   double landmark_distance = 0;  ///< of `centre` from it, fraction of the diagonal
+  bool ends_on_other = false;    ///< whether `end` is on the other source, else on the first
+  Eigen::RowVector3d end = Eigen::RowVector3d::Zero();  ///< its point furthest from that landmark,
+                                                        ///< on the source where that is further
+  double end_distance = 0;  ///< of `end` from it, fraction of that source's diagonal
 };
 
 /// The regions of high distortion between the first source and source `other`, largest area first.

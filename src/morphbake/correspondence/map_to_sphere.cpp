@@ -100,15 +100,27 @@ double volume_of(const Mesh& mesh) {
   return sum;
 }
 
-/// What to do about a mirror image. Closed surfaces of which one is inside out seem to be some.
-std::string mirrored_advice(const SourceSurface& first, const SourceSurface& other,
-                            bool is_closed) {
-  const double volumes[] = {volume_of(first.mesh), volume_of(other.mesh)};
-  if (!is_closed || (volumes[0] < 0) == (volumes[1] < 0)) {
-    return "swap its left and right landmarks, or mirror the mesh";
+/// The one of two closed surfaces that is inside out, which makes it look mirrored; null when that
+/// is neither or both.
+const SourceSurface* inside_out(const SourceSurface& first, const SourceSurface& other) {
+  const bool is_first = volume_of(first.mesh) < 0, is_other = volume_of(other.mesh) < 0;
+  if (is_first == is_other) return nullptr;
+  return is_first ? &first : &other;
+}
+
+[[noreturn]] void fail_mirrored(const SourceSurface& first, const SourceSurface& other,
+                                bool is_closed, const std::string& fits) {
+  const SourceSurface* turned = is_closed ? inside_out(first, other) : nullptr;
+  if (turned != nullptr) {
+    fail(*turned, "correspondence.mirrored",
+         fmt::format("\"{}\" is inside out: the landmarks of \"{}\" fit to those of \"{}\" {}",
+                     turned->name, other.name, first.name, fits),
+         "in Blender: Mesh > Normals > Recalculate Outside");
   }
-  return fmt::format("\"{}\" is inside out; in Blender: Mesh > Normals > Recalculate Outside",
-                     volumes[0] < 0 ? first.name : other.name);
+  fail(other, "correspondence.mirrored",
+       fmt::format("\"{}\" is a mirror image of \"{}\": its landmarks fit {}", other.name,
+                   first.name, fits),
+       "swap its left and right landmarks, or mirror the mesh");
 }
 
 /// Landmarks that fit far better after a reflection belong to a mirror image.
@@ -119,17 +131,32 @@ void check_not_mirrored(const std::vector<SourceSurface>& sources,
     const double straight = fit_rotation(layouts[s], layouts[0], false).residual;
     const double mirrored = fit_rotation(layouts[s], layouts[0], true).residual;
     if (straight < kClearlyOff || mirrored > 0.5 * straight) continue;
-    fail(sources[s], "correspondence.mirrored",
-         fmt::format("\"{}\" is a mirror image of \"{}\": its landmarks fit to {:.0f} degrees as "
-                     "they are and to {:.0f} degrees mirrored",
-                     sources[s].name, sources[0].name, straight * 57.29578, mirrored * 57.29578),
-         mirrored_advice(sources[0], sources[s], layouts[s].surface->apex < 0));
+    fail_mirrored(sources[0], sources[s], layouts[s].surface->apex < 0,
+                  fmt::format("to {:.0f} degrees as they are and to {:.0f} degrees mirrored",
+                              straight * 57.29578, mirrored * 57.29578));
   }
 }
 
+/// A layout does not know whose it is.
+std::vector<Problem> told_of(std::vector<Problem> problems, const SourceSurface& source) {
+  for (Problem& problem : problems) {
+    if (!problem.location.file.empty()) continue;
+    problem.location.file = source.file;
+    problem.message = fmt::format("\"{}\": {}", source.name, problem.message);
+  }
+  return problems;
+}
+
 template <typename Function>
-void for_each_layout(std::vector<SphereLayout>& layouts, const Function& each) {
-  tbb::parallel_for(std::size_t{0}, layouts.size(), [&](std::size_t s) { each(layouts[s]); });
+void for_each_layout(const std::vector<SourceSurface>& sources, std::vector<SphereLayout>& layouts,
+                     const Function& each) {
+  tbb::parallel_for(std::size_t{0}, layouts.size(), [&](std::size_t s) {
+    try {
+      each(layouts[s]);
+    } catch (const BakeError& error) {
+      throw BakeError(told_of(error.problems(), sources[s]));
+    }
+  });
 }
 
 void check_coarse(const std::vector<SourceSurface>& sources,
@@ -153,18 +180,18 @@ std::vector<SphereLayout> lay_out(const std::vector<SourceSurface>& sources,
     stop_if_cancelled(observer);
     coarse.push_back(make_layout(surface));
   }
-  for_each_layout(coarse, [&](SphereLayout& layout) {
+  for_each_layout(sources, coarse, [&](SphereLayout& layout) {
     coarsen(layout, layout.surface->apex < 0 ? 4 : 5, {}, observer);
   });
   check_coarse(sources, coarse);
   advance(observer, {"correspondence", 1, kSteps});
-  for_each_layout(coarse, lie_down);
+  for_each_layout(sources, coarse, lie_down);
   const auto landmarks = static_cast<int>(sources[0].landmarks.size());
   std::vector<int> unpinned;
   bool is_mirror_checked = false;
   for (const int level : kPinLevels) {
     const int count = std::max(level, 10 * landmarks);
-    for_each_layout(coarse, [&](SphereLayout& layout) {
+    for_each_layout(sources, coarse, [&](SphereLayout& layout) {
       refine(layout, count, observer);
       relax(layout, 60, observer);
     });
@@ -243,7 +270,7 @@ std::vector<SphericalMap> map_to_sphere(const std::vector<SourceSurface>& source
   advance(observer, {"correspondence", 0, kSteps});
   const std::vector<CappedSurface> capped = cap_all(sources, observer);
   std::vector<SphereLayout> layouts = lay_out(sources, capped, observer);
-  for_each_layout(layouts, [&](SphereLayout& layout) {
+  for_each_layout(sources, layouts, [&](SphereLayout& layout) {
     refine(layout, layout.mesh.vertex_slots(), observer);
     relax(layout, 10, observer);
   });

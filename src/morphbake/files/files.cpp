@@ -39,18 +39,20 @@ fs::path temporary_beside(const fs::path& path) {
   return path.parent_path() / fmt::format(".{}.{}.tmp{}", stem, token, path.extension().string());
 }
 
-void sync_to_disk(const fs::path& path) {
+/// @param shown  what messages call the file
+void sync_to_disk(const fs::path& path, const fs::path& shown) {
   const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
-  if (descriptor < 0) fail_to_write(path, errno);
+  if (descriptor < 0) fail_to_write(shown, errno);
   const int result = ::fsync(descriptor);
   const int error = errno;
   ::close(descriptor);
-  if (result != 0) fail_to_write(path, error);
+  if (result != 0) fail_to_write(shown, error);
 }
 
-void write_new_file(const fs::path& path, std::string_view bytes) {
+/// @param shown  what messages call the file
+void write_new_file(const fs::path& path, std::string_view bytes, const fs::path& shown) {
   const int descriptor = ::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-  if (descriptor < 0) fail_to_write(path, errno);
+  if (descriptor < 0) fail_to_write(shown, errno);
   std::size_t done = 0;
   while (done < bytes.size()) {
     const ssize_t count = ::write(descriptor, bytes.data() + done, bytes.size() - done);
@@ -58,13 +60,13 @@ void write_new_file(const fs::path& path, std::string_view bytes) {
     if (count <= 0) {
       const int error = errno;
       ::close(descriptor);
-      fail_to_write(path, error);
+      fail_to_write(shown, error);
     }
     done += static_cast<std::size_t>(count);
   }
   const bool synced = ::fsync(descriptor) == 0;
   const int error = errno;
-  if (::close(descriptor) != 0 || !synced) fail_to_write(path, error);
+  if (::close(descriptor) != 0 || !synced) fail_to_write(shown, error);
 }
 
 /// Makes the folder of `path` and records what it had to make, innermost last.
@@ -135,12 +137,12 @@ fs::path PendingOutputs::stage_external(const fs::path& path) {
 
 fs::path PendingOutputs::stage(const fs::path& path, std::string_view bytes) {
   fs::path temporary = stage_external(path);
-  write_new_file(temporary, bytes);
+  write_new_file(temporary, bytes, path);
   return temporary;
 }
 
 void PendingOutputs::commit() {
-  for (const Entry& entry : entries_) sync_to_disk(entry.temporary);
+  for (const Entry& entry : entries_) sync_to_disk(entry.temporary, entry.target);
   for (const Entry& entry : entries_) {
     if (std::rename(entry.temporary.c_str(), entry.target.c_str()) != 0)
       fail_to_write(entry.target, errno);

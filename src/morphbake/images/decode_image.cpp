@@ -19,7 +19,10 @@ constexpr int kLargestSide = 16384;
                        const std::string& hint) {
   Problem problem;
   problem.code = code;
-  problem.location.file = name;
+  // "face.glb#/images/0" names a place in a file.
+  const std::size_t pointer = name.rfind("#/");
+  problem.location.file = name.substr(0, pointer);
+  if (pointer != std::string::npos) problem.location.pointer = name.substr(pointer + 1);
   problem.message = message;
   problem.hint = hint;
   throw BakeError(std::move(problem));
@@ -44,7 +47,8 @@ ImageHeader checked_header(std::string_view bytes, const std::string& name) {
          fmt::format("at most {} pixels a side", kLargestSide));
   }
   // libpng would find this as well, but says so on stderr.
-  if (header->format == ImageFormat::Png && !has_whole_png_chunks(bytes)) {
+  if (header->format == ImageFormat::Png &&
+      (!has_whole_png_chunks(bytes) || !can_hold_png_pixels(bytes))) {
     fail_unreadable(name, "it is cut short");
   }
   return *header;
@@ -52,7 +56,8 @@ ImageHeader checked_header(std::string_view bytes, const std::string& name) {
 
 std::string last_error(const OIIO::ImageInput* input) {
   const std::string text = input != nullptr ? input->geterror() : OIIO::geterror();
-  return text.empty() ? "the data is damaged" : text;
+  if (text.empty()) return "the data is damaged";
+  return text.substr(0, text.find('\n'));  // what follows repeats it
 }
 
 /// Grey becomes three equal channels; alpha (the last of 2 or 4 channels) is dropped.

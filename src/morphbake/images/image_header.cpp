@@ -76,4 +76,15 @@ bool has_whole_png_chunks(std::string_view bytes) {
   return false;
 }
 
+bool can_hold_png_pixels(std::string_view bytes) {
+  constexpr double kMostByDeflate = 1032;  // bytes out for a byte in
+  constexpr std::size_t kDepthAt = 24, kColourTypeAt = 25;
+  const auto header = png_header(bytes);
+  if (!header || bytes.size() <= kColourTypeAt) return false;
+  const unsigned type = byte_at(bytes, kColourTypeAt);
+  const int channels = type == 2 ? 3 : type == 4 ? 2 : type == 6 ? 4 : 1;
+  const double bits = 1.0 * header->width * header->height * channels * byte_at(bytes, kDepthAt);
+  return bits / 8 <= kMostByDeflate * static_cast<double>(bytes.size());
+}
+
 }  // namespace morphbake

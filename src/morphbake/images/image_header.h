@@ -23,4 +23,8 @@ std::optional<ImageHeader> read_image_header(std::string_view bytes);
 /// sums are not looked at.
 bool has_whole_png_chunks(std::string_view bytes);
 
+/// Whether a PNG's bytes can unpack to as many pixels as its header claims: deflate packs at most
+/// 1032 bytes into one.
+bool can_hold_png_pixels(std::string_view bytes);
+
 }  // namespace morphbake

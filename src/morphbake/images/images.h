@@ -18,7 +18,7 @@ struct Image {
 /// Decodes PNG or JPEG bytes; alpha, orientation tags and colour profiles are ignored
 /// (glTF 2.0, 3.8).
 ///
-/// @param name  where the bytes come from, for the error message
+/// @param name  where the bytes come from, for the error message: a file, or "face.glb#/images/0"
 /// @throws BakeError "image.unreadable" (neither PNG nor JPEG, damaged, cut short) or
 ///         "image.too-large" (more than 16384 pixels a side), both before any pixel memory is
 ///         allocated where the header shows it

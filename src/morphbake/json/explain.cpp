@@ -117,14 +117,17 @@ std::vector<std::string> keys_of(const Json& object) {
   return keys;
 }
 
-void check_count(Walk& walk, const Place& at, const char* least_keyword, const char* most_keyword) {
+/// Complains about too few or too many entries.
+///
+/// @return  whether they are worth a look each: not when they are too many
+bool check_count(Walk& walk, const Place& at, const char* least_keyword, const char* most_keyword) {
   const Json& target = at.field.target;
   const Json least = target.value(least_keyword, Json());
   const Json most = target.value(most_keyword, Json());
   const std::size_t count = at.value.size();
   const bool few = !least.is_null() && count < least.get<std::size_t>();
   const bool many = !most.is_null() && count > most.get<std::size_t>();
-  if (!few && !many) return;
+  if (!few && !many) return true;
   const bool has_fields = at.value.is_object() && target.contains("properties");
   const std::string has = at.value.is_object() && count > 0
                               ? fmt::format("{} ({})", count, name_list(keys_of(at.value)))
@@ -134,10 +137,11 @@ void check_count(Walk& walk, const Place& at, const char* least_keyword, const c
                        wanted_count(least, most, has_fields ? "field" : "entry"), has),
            has_fields ? "its fields are: " + name_list(keys_of(target["properties"]))
                       : described(at.field));
+  return !many;
 }
 
 void check_array(Walk& walk, const Place& at) {
-  check_count(walk, at, "minItems", "maxItems");
+  if (!check_count(walk, at, "minItems", "maxItems")) return;
   const Json& target = at.field.target;
   const Json any = Json::object();
   for (std::size_t i = 0; i < at.value.size() && walk.problems.size() < problems_limit; ++i) {
@@ -185,7 +189,9 @@ void check_additional(Walk& walk, const Place& at, const std::string& key, const
 
 void check_object(Walk& walk, const Place& at) {
   const Json& target = at.field.target;
-  check_count(walk, at, "minProperties", "maxProperties");
+  // A few fields too many are looked at: the one that is no field is told by name.
+  const bool has_fields = at.field.target.contains("properties");
+  if (!check_count(walk, at, "minProperties", "maxProperties") && !has_fields) return;
   check_required(walk, at);
   const Json none = Json::object();
   const Json& properties = target.contains("properties") ? target["properties"] : none;

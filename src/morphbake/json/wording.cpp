@@ -9,8 +9,8 @@ const Json nothing;  // null, for keywords that are not there
 
 std::string type_in_words(const std::string& type) {
   if (type == "integer") return "a whole number";
-  if (type == "object") return "an object in {}";
-  if (type == "array") return "a list in []";
+  if (type == "object") return "an object, written {...}";
+  if (type == "array") return "a list, written [...]";
   if (type == "boolean") return "true or false";
   return "a " + type;
 }

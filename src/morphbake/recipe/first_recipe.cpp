@@ -127,7 +127,7 @@ std::string relative_name(const fs::path& file, const fs::path& from) {
 }
 
 std::string first_recipe(const std::vector<fs::path>& sources, const fs::path& recipe_file,
-                         const fs::path& schema) {
+                         const fs::path& schema, const FirstChoices& choices) {
   check_sources(sources);
   const std::vector<std::string> names = unique_names(sources);
   const std::string landmark = common_landmark(sources);
@@ -136,8 +136,13 @@ std::string first_recipe(const std::vector<fs::path>& sources, const fs::path& r
   recipe["version"] = 1;
   recipe["name"] = names.front() + "-to-" + names.back();
   for (std::size_t i = 0; i < sources.size(); ++i) {
-    recipe["sources"][names[i]] = relative_name(sources[i], recipe_file);
+    const std::string file = relative_name(sources[i], recipe_file);
+    Json& source = recipe["sources"][names[i]];
+    source = file;
+    const bool is_unlike = i < choices.is_unlike.size() && choices.is_unlike[i];
+    if (is_unlike) source = {{"file", file}, {"align", "similarity"}};
   }
+  if (choices.remesh) recipe["connectivity"] = {{"mode", "remesh"}};
   if (!landmark.empty()) recipe["regions"] = regions_around(landmark, names[0]);
   recipe["timeline"] = {{"fps", 30}, {"start", names[0]}};
   recipe["timeline"]["tracks"] = tracks_through(names, landmark);

@@ -19,12 +19,18 @@ Recipe read_recipe(const std::filesystem::path& file);
 /// A copy of `recipe` that writes into `folder`, each output under its own file name.
 Recipe redirect_outputs(Recipe recipe, const std::filesystem::path& folder);
 
+/// What a first recipe says beside its sources; nothing for sources that share their triangles.
+struct FirstChoices {
+  bool remesh = false;          ///< whether they get new triangles
+  std::vector<bool> is_unlike;  ///< one a source, or none: whether it is aligned to the first
+};
+
 /// A first recipe over `sources` that bakes, as JSON text.
 ///
 /// @param sources  two or more glTF files; their landmark files are found beside them
 /// @param schema   recipe.schema.json for "$schema", by which editors complete; empty for none
 std::string first_recipe(const std::vector<std::filesystem::path>& sources,
                          const std::filesystem::path& recipe_file,
-                         const std::filesystem::path& schema);
+                         const std::filesystem::path& schema, const FirstChoices& choices = {});
 
 }  // namespace morphbake

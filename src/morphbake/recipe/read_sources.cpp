@@ -73,6 +73,7 @@ std::string beside_recipe(const Reading& reading, const fs::path& name) {
 void read_source_landmarks(Reading& reading, const Json& source, const std::string& pointer,
                            SourceRef& ref) {
   const Json& file = source.is_object() ? source["file"] : source;
+  ref.landmarks_at = {reading.recipe.file.string(), pointer};  // where none are, some could be
   if (source.is_object() && source.contains("landmarks")) {
     const Json& landmarks = source["landmarks"];
     if (landmarks.is_object()) {

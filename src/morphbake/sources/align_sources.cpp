@@ -169,19 +169,32 @@ void move_positions(Recipe& recipe, std::size_t s, const Affine3d& map) {
   if (has_place && recipe.gauge.source == source) move(recipe.gauge.at);
 }
 
+struct Unlikeness {
+  double ratio = 1;  ///< of sizes
+  double away = 0;   ///< distance of the centres, in the larger radius
+
+  bool in_size() const { return ratio > kUnlikeSize || ratio < 1 / kUnlikeSize; }
+
+  bool in_place() const { return away > kUnlikeSize; }
+};
+
+Unlikeness unlikeness(const SourceMesh& first_source, const SourceMesh& other_source) {
+  const Extent first = extent_of(first_source), other = extent_of(other_source);
+  return {other.radius / first.radius,
+          (other.centre - first.centre).norm() / std::max(first.radius, other.radius)};
+}
+
 /// Tells of a source that one would hardly see beside the first one.
 void warn_of_unlike(const Recipe& recipe, const std::vector<SourceMesh>& sources, std::size_t s,
                     const Observer& observer) {
-  const Extent first = extent_of(sources[0]), other = extent_of(sources[s]);
-  const double ratio = other.radius / first.radius;
-  const double away = (other.centre - first.centre).norm() / std::max(first.radius, other.radius);
+  const Unlikeness unlike = unlikeness(sources[0], sources[s]);
   std::string message;
-  if (ratio > kUnlikeSize || ratio < 1 / kUnlikeSize) {
+  if (unlike.in_size()) {
     message = fmt::format("\"{}\" is {:.3g} times as large as \"{}\"", recipe.sources[s].name,
-                          ratio, recipe.sources[0].name);
-  } else if (away > kUnlikeSize) {
+                          unlike.ratio, recipe.sources[0].name);
+  } else if (unlike.in_place()) {
     message = fmt::format("\"{}\" stands {:.3g} times its own radius away from \"{}\"",
-                          recipe.sources[s].name, away, recipe.sources[0].name);
+                          recipe.sources[s].name, unlike.away, recipe.sources[0].name);
   }
   if (message.empty()) return;
   report(observer, {Severity::Warning,
@@ -192,6 +205,11 @@ void warn_of_unlike(const Recipe& recipe, const std::vector<SourceMesh>& sources
 }
 
 }  // namespace
+
+bool is_unlike(const SourceMesh& first, const SourceMesh& other) {
+  const Unlikeness unlike = unlikeness(first, other);
+  return unlike.in_size() || unlike.in_place();
+}
 
 AlignedSources align_sources(Recipe recipe, std::vector<SourceMesh> sources,
                              const Observer& observer) {

@@ -14,6 +14,10 @@ struct AlignedSources {
   std::vector<SourceMesh> sources;
 };
 
+/// Whether one would hardly see `other` beside `first`: four times as large or as small, or that
+/// many times its own radius away.
+bool is_unlike(const SourceMesh& first, const SourceMesh& other);
+
 /// Moves each source that says so onto the first one.
 ///
 /// By the landmarks that both have, least squares (Umeyama 1991; the affine map by its normal

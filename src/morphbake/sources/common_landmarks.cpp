@@ -29,20 +29,25 @@ std::vector<std::string> all_names(const std::vector<SourceSurface>& surfaces) {
   return names;
 }
 
+/// Where the landmarks of a source stand, or should.
+Location place_of(const SourceSurface& surface, const SourceRef& ref) {
+  return ref.landmarks_at.file.empty() ? Location{surface.file, ""} : ref.landmarks_at;
+}
+
 /// One problem for each source that lacks landmarks.
 std::vector<Problem> missing_landmarks(const std::vector<SourceSurface>& surfaces,
+                                       const std::vector<SourceRef>& refs,
                                        const std::vector<std::string>& names, Severity severity) {
   std::vector<Problem> problems;
-  for (const SourceSurface& surface : surfaces) {
+  for (std::size_t s = 0; s < surfaces.size(); ++s) {
+    const SourceSurface& surface = surfaces[s];
     std::vector<std::string> missing;
     for (const std::string& name : names) {
       if (index_of(surface, name) < 0) missing.push_back(name);
     }
     if (missing.empty()) continue;
     const bool is_error = severity == Severity::Error;
-    problems.push_back({severity,
-                        "landmarks.missing",
-                        {surface.file, ""},
+    problems.push_back({severity, "landmarks.missing", place_of(surface, refs[s]),
                         fmt::format("\"{}\" lacks landmarks that other sources have: {}",
                                     surface.name, name_list(missing)),
                         is_error
@@ -66,26 +71,27 @@ std::vector<std::string> common_names(const std::vector<SourceSurface>& surfaces
 
 }  // namespace
 
-std::vector<Problem> common_landmark_problems(const std::vector<SourceSurface>& surfaces) {
+std::vector<Problem> common_landmark_problems(const std::vector<SourceSurface>& surfaces,
+                                              const std::vector<SourceRef>& refs) {
   const std::size_t common = common_names(surfaces).size();
   const Severity severity = common < kFewest ? Severity::Error : Severity::Warning;
-  std::vector<Problem> problems = missing_landmarks(surfaces, all_names(surfaces), severity);
+  std::vector<Problem> problems = missing_landmarks(surfaces, refs, all_names(surfaces), severity);
   if (common >= kFewest) return problems;
-  problems.insert(problems.begin(),
-                  Problem{Severity::Error,
-                          "landmarks.too-few",
-                          {surfaces.front().file, ""},
-                          fmt::format("the sources have {} landmarks in common; {} are needed",
-                                      common, kFewest),
-                          "name the same points on every source, or let `morphbake landmarks "
-                          "suggest` propose them"});
+  problems.insert(
+      problems.begin(),
+      Problem{
+          Severity::Error, "landmarks.too-few", place_of(surfaces.front(), refs.front()),
+          fmt::format("the sources have {} landmarks in common; {} are needed", common, kFewest),
+          "name the same points on every source, or let `morphbake landmarks "
+          "suggest` propose them"});
   return problems;
 }
 
 std::vector<SourceSurface> with_common_landmarks(std::vector<SourceSurface> surfaces,
+                                                 const std::vector<SourceRef>& refs,
                                                  const Observer& observer) {
   const std::vector<std::string> common = common_names(surfaces);
-  std::vector<Problem> problems = common_landmark_problems(surfaces);
+  std::vector<Problem> problems = common_landmark_problems(surfaces, refs);
   if (common.size() < kFewest) throw BakeError(std::move(problems));
   for (const Problem& problem : problems) report(observer, problem);
   for (SourceSurface& surface : surfaces) {

@@ -131,10 +131,15 @@ void check_manifold(const SourceMesh& source, const Connectivity& connectivity,
   for (const int v : defects.pinched_vertices) {
     places.push_back(fmt::format("the surface is pinched at {}", place_of(positions, v)));
   }
+  // A triangle that is turned is one at each of its edges.
+  std::vector<std::string> once;
+  for (std::string& place : places) {
+    if (std::find(once.begin(), once.end(), place) == once.end()) once.push_back(std::move(place));
+  }
   const bool only_turned = defects.crowded_edges.empty() && defects.pinched_vertices.empty();
   fail_source(
       source, "connectivity.not-manifold",
-      fmt::format("the surface is no oriented manifold: {}", fmt::join(places, "; ")),
+      fmt::format("the surface is no oriented manifold: {}", fmt::join(once, "; ")),
       only_turned
           ? "in Blender: Mesh > Normals > Recalculate Outside; a strip that is twisted once "
             "has no outside"

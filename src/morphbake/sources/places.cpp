@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "morphbake/json/json.h"
+#include "morphbake/json/nearest.h"
 #include "morphbake/mesh/closest_point.h"
 #include "morphbake/mesh/measures.h"
 
@@ -149,29 +150,46 @@ SurfacePoint point_of_triangle(Placement& placement, const Landmark& landmark,
   return point;
 }
 
-/// Complains about pairs of landmarks at one point; sorted along x, only neighbours can be.
-void check_same_points(Placement& placement, const std::vector<SurfacePoint>& points) {
-  const double nearest = kSamePoint * placement.diagonal;
-  std::vector<Eigen::Vector3d> positions;
-  for (const SurfacePoint& point : points) positions.push_back(position_of(placement.mesh, point));
-  std::vector<std::size_t> order(points.size());
+/// Landmarks at one point, each such point once; sorted along x, only neighbours can be.
+std::vector<std::vector<std::size_t>> shared_points(const std::vector<Eigen::Vector3d>& positions,
+                                                    double nearest) {
+  std::vector<std::size_t> order(positions.size());
   std::iota(order.begin(), order.end(), 0);
   std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
     return std::pair(positions[a].x(), a) < std::pair(positions[b].x(), b);
   });
+  std::vector<std::vector<std::size_t>> groups;
+  std::vector<char> is_told(positions.size(), 0);
   for (std::size_t i = 0; i < order.size(); ++i) {
+    if (is_told[order[i]] != 0) continue;
+    std::vector<std::size_t> group = {order[i]};
     for (std::size_t j = i + 1; j < order.size(); ++j) {
       const Eigen::Vector3d apart = positions[order[j]] - positions[order[i]];
       if (apart.x() > nearest) break;
-      if (apart.norm() > nearest) continue;
-      const auto& landmarks = placement.ref.landmarks;
-      const auto [first, second] = std::minmax(order[i], order[j]);
-      complain(
-          placement, landmarks[second], "landmarks.same-point",
-          fmt::format("{} and {} lie at one point of \"{}\"", shown(Json(landmarks[first].name)),
-                      shown(Json(landmarks[second].name)), placement.source.name),
-          "move or remove one of them");
+      if (apart.norm() > nearest || is_told[order[j]] != 0) continue;
+      is_told[order[j]] = 1;
+      group.push_back(order[j]);
     }
+    if (group.size() < 2) continue;
+    std::sort(group.begin(), group.end());
+    groups.push_back(std::move(group));
+  }
+  return groups;
+}
+
+void check_same_points(Placement& placement, const std::vector<SurfacePoint>& points) {
+  std::vector<Eigen::Vector3d> positions;
+  for (const SurfacePoint& point : points) positions.push_back(position_of(placement.mesh, point));
+  const auto& landmarks = placement.ref.landmarks;
+  for (const auto& group : shared_points(positions, kSamePoint * placement.diagonal)) {
+    std::vector<std::string> names;
+    for (const std::size_t each : group) names.push_back(shown(Json(landmarks[each].name)));
+    const std::string last = names.back();
+    names.pop_back();
+    complain(placement, landmarks[group.back()], "landmarks.same-point",
+             fmt::format("{} and {} lie at one point of \"{}\"", name_list(names), last,
+                         placement.source.name),
+             names.size() == 1 ? "move or remove one of them" : "move or remove all but one");
   }
 }
 

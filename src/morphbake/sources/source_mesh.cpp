@@ -31,6 +31,26 @@ void check_size(const SourceMesh& mesh) {
                           "check the node's scale and matrix"});
 }
 
+/// Files hold floats, which lose their digits towards 1e-38: a morph of a tiny mesh would be
+/// coarse.
+void check_digits(const SourceMesh& mesh) {
+  constexpr float kSmallest = 1e-30F;
+  float reach = 0;
+  for (const PrimitiveGeometry& primitive : mesh.geometry.primitives) {
+    if (primitive.positions.size() == 0) continue;
+    reach = std::max(reach, primitive.positions.cwiseAbs().maxCoeff());
+  }
+  if (reach == 0 || reach > kSmallest) return;
+  throw BakeError(
+      Problem{Severity::Error,
+              "gltf.extreme-size",
+              {file_of(mesh.file), fmt::format("/meshes/{}", mesh.geometry.mesh), 0, 0},
+              fmt::format("coordinates reach {:.3g}; below {:.0e} the numbers of a file "
+                          "lose their digits",
+                          reach, kSmallest),
+              "scale the mesh up, and the node down"});
+}
+
 }  // namespace
 
 std::vector<int> weld_rows(const Positions& positions, int& welded_count) {
@@ -85,6 +105,7 @@ SourceMesh read_source(const std::string& name, const GltfFile& file) {
     vertices += primitive.positions.rows();
     triangles += primitive.triangles.rows();
   }
+  check_digits(mesh);
   check_size(mesh);
   mesh.welded = weld_rows(mesh.positions, mesh.welded_count);
   return mesh;

@@ -13,7 +13,7 @@ ConnectivityReport full_connectivity() {
   TriangulationQuality quality;
   quality.sources.push_back({"a", 0.001, 0.002, 1, 3, 3, 0, 20, 0.05, 0, SphereQuality{}});
   quality.maps.push_back({"b", 1.2, 1.1, 1.5, 2, 7});
-  quality.regions.push_back({"b", 4, 0.01, {1, 2, 3}, "tip", 0.1});
+  quality.regions.push_back({"b", 4, 0.01, 0.02, {1, 2, 3}, "tip", 0.1, true, {4, 5, 6}, 0.2});
   return {ConnectivityMode::Remesh, 8, 12, {{"sphere", 0.5}}, quality};
 }
 
@@ -85,7 +85,7 @@ TEST(Report, OfRemeshingFitsItsSchema) {
   const Json schema = shipped_schema("remesh-report.schema.json");
   EXPECT_TRUE(schema_problems(report, schema, {"report", ""}).empty());
   EXPECT_NE(report["connectivity"]["distorted_regions"][0]["advice"].get<std::string>().find(
-                "add a landmark at the tip near (1, 2, 3)"),
+                "add a landmark on every source; the region ends near (4, 5, 6) on \"b\", 0.2 "),
             std::string::npos);
 }
 
@@ -103,6 +103,15 @@ TEST(ConnectivityWarnings, NameWhatIsWorthALook) {
   for (const Problem& warning : warnings) codes.push_back(warning.code);
   EXPECT_EQ(codes,
             (std::vector<std::string>{"connectivity.folds", "connectivity.high-distortion"}));
+}
+
+TEST(ConnectivityWarnings, PassOverRegionsThatNobodySees) {
+  TriangulationQuality quality = *full_connectivity().quality;
+  quality.regions[0].area_share = 0;
+  quality.regions[0].other_area_share = 0.0009;
+  for (const Problem& warning : connectivity_warnings(Recipe{}, of_vertices(100), quality)) {
+    EXPECT_NE(warning.code, "connectivity.high-distortion");
+  }
 }
 
 TEST(ConnectivityWarnings, TellWhatTheLimitOfVerticesLeftUndone) {

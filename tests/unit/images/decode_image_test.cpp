@@ -13,7 +13,9 @@ std::string code_of(const std::string& bytes) {
   try {
     decode_image(bytes, "hero.glb#/images/0");
   } catch (const BakeError& error) {
-    EXPECT_EQ(error.problems().front().location.file, "hero.glb#/images/0");
+    EXPECT_EQ(error.problems().front().location.file, "hero.glb");
+    EXPECT_EQ(error.problems().front().location.pointer, "/images/0");
+    EXPECT_EQ(error.problems().front().message.find('\n'), std::string::npos);
     return error.problems().front().code;
   }
   return "";
@@ -58,6 +60,18 @@ TEST(DecodeImage, RefusesHugeSidesBeforeItAllocates) {
   put_32(wide, 16, 0xffffffffu);
   EXPECT_EQ(code_of(wide), "image.too-large");
   EXPECT_EQ(code_of(jpeg_start(65535, 65535)), "image.too-large");
+}
+
+TEST(DecodeImage, RefusesAPngThatIsTooShortForItsSize) {
+  std::string bytes = encode_png(coloured_noise(4, 4));
+  put_32(bytes, 16, 16000);
+  put_32(bytes, 20, 16000);
+  testing::internal::CaptureStderr();
+  EXPECT_EQ(code_of(bytes), "image.unreadable");
+  EXPECT_EQ(testing::internal::GetCapturedStderr(), "");  // libpng has not seen it
+  const Image flat{4000, 4000, std::vector<std::uint8_t>(48000000, 7)};
+  EXPECT_EQ(decode_image(encode_png(flat), "flat").rgb,
+            flat.rgb);  // packed nearly as far as can be
 }
 
 TEST(DecodeImage, RefusesEmptyAndCutJpegs) {

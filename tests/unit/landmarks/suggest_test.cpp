@@ -128,6 +128,17 @@ TEST(SuggestLandmarks, AMirroredCopyIsRecognised) {
   EXPECT_THAT(suggested(shape, shape).codes, IsEmpty());
 }
 
+TEST(SuggestLandmarks, OfShapesWhoseTipsLieDifferentlyAreUncertain) {
+  EXPECT_THAT(suggested(example("horse"), example("bird")).codes,
+              ElementsAre("landmarks.uncertain"));
+  EXPECT_THAT(suggested(example("horse"), example("giraffe")).codes, IsEmpty());
+}
+
+TEST(SuggestLandmarks, AnOpenShapeBesideAClosedOneIsToldOf) {
+  EXPECT_THAT(suggested(example("face"), example("pig")).codes,
+              testing::Contains("correspondence.different-topology"));
+}
+
 TEST(SuggestLandmarks, FollowATurnedAndScaledCopy) {
   const SourceSurface shape = surface_of(crooked_shape(), "a");
   SourceSurface turned = shape;

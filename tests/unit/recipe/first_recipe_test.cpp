@@ -41,6 +41,16 @@ TEST(FirstRecipe, WithoutACommonLandmarkMovesEverything) {
   EXPECT_EQ(recipe.timeline.tracks[0].edit.region, -1);
 }
 
+TEST(FirstRecipe, SaysWhatSourcesOfOtherTrianglesNeed) {
+  const test::RecipeFolder folder;
+  const Recipe recipe =
+      folder.read(first_recipe({folder.path / "a.glb", folder.path / "b.glb"},
+                               folder.path / "recipe.json", "", {true, {false, true}}));
+  EXPECT_EQ(recipe.connectivity.mode, ConnectivityMode::Remesh);
+  EXPECT_EQ(recipe.sources[0].align, Align::None);
+  EXPECT_EQ(recipe.sources[1].align, Align::Similarity);
+}
+
 TEST(FirstRecipe, TakesAwkwardNamesAndManySources) {
   const test::RecipeFolder folder;
   std::string long_name;

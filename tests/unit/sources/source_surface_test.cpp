@@ -133,17 +133,27 @@ SourceSurface named(const std::string& name, const std::vector<std::string>& lan
   return surface;
 }
 
+SourceRef in_recipe(const std::string& name) {
+  SourceRef ref;
+  ref.name = name;
+  ref.landmarks_at = {"recipe.json", "/sources/" + name + "/landmarks"};
+  return ref;
+}
+
 TEST(CommonLandmarks, FewerThanThreeAreTooFew) {
   try {
-    with_common_landmarks({named("x", {"a", "b", "c"}), named("y", {"b", "c", "d"})}, {});
+    with_common_landmarks({named("x", {"a", "b", "c"}), named("y", {"b", "c", "d"})},
+                          {in_recipe("x"), in_recipe("y")}, {});
     FAIL();
   } catch (const BakeError& error) {
     ASSERT_EQ(error.problems().size(), 3U);
     EXPECT_EQ(error.problems()[0].code, "landmarks.too-few");
+    EXPECT_EQ(error.problems()[0].location.pointer, "/sources/x/landmarks");
     EXPECT_EQ(error.problems()[1].code, "landmarks.missing");
     EXPECT_THAT(error.problems()[1].message, testing::HasSubstr("\"x\" lacks"));
     EXPECT_THAT(error.problems()[1].message, testing::EndsWith(": d"));
     EXPECT_THAT(error.problems()[2].message, testing::EndsWith(": a"));
+    EXPECT_EQ(error.problems()[2].location.pointer, "/sources/y/landmarks");
   }
 }
 
@@ -151,8 +161,9 @@ TEST(CommonLandmarks, StandInOneOrderAndTheRestIsTold) {
   Observer observer;
   std::vector<Problem> warnings;
   observer.on_problem = [&](const Problem& problem) { warnings.push_back(problem); };
-  const auto surfaces = with_common_landmarks(
-      {named("x", {"a", "b", "c", "d"}), named("y", {"d", "c", "b"})}, observer);
+  const auto surfaces =
+      with_common_landmarks({named("x", {"a", "b", "c", "d"}), named("y", {"d", "c", "b"})},
+                            {in_recipe("x"), in_recipe("y")}, observer);
   for (const SourceSurface& surface : surfaces) {
     EXPECT_EQ(surface.landmark_names, (std::vector<std::string>{"b", "c", "d"}));
     ASSERT_EQ(surface.landmarks.size(), 3U);
@@ -163,7 +174,7 @@ TEST(CommonLandmarks, StandInOneOrderAndTheRestIsTold) {
   ASSERT_EQ(warnings.size(), 1U);
   EXPECT_EQ(warnings[0].code, "landmarks.missing");
   EXPECT_EQ(warnings[0].severity, Severity::Warning);
-  EXPECT_EQ(warnings[0].location.file, "y.glb");
+  EXPECT_EQ(warnings[0].location.file, "recipe.json");
 }
 
 }  // namespace
