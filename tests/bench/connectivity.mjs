@@ -5,7 +5,7 @@ import { mkdirSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from 'nod
 import { cpus, tmpdir } from 'node:os';
 import { basename, join } from 'node:path';
 
-import { copyRemark, credits, fourRemark, pairs, penguinEars, penguinNames } from './connectivity_cases.mjs';
+import { catTailTip, copyRemark, credits, fourRemark, pairs, penguinEars, penguinNames, tailRemark } from './connectivity_cases.mjs';
 
 const [program, helper, meshes, docs, command] = process.argv.slice(2);
 const scratch = mkdtempSync(join(tmpdir(), 'morphbake-bench-'));
@@ -26,12 +26,26 @@ function side(pair, which, names) {
   return { file: join(meshes, pair[which]), landmarks };
 }
 
+/** A recipe whose sources are brought onto the first one. */
 function writeRecipe(name, sources) {
   const file = join(scratch, `${name}.json`);
-  const last = Object.keys(sources).at(-1);
-  const timeline = { tracks: [{ to: last, begin: 0, end: 1 }] };
-  writeFileSync(file, JSON.stringify({ version: 1, name, sources, connectivity, timeline }));
+  const [first, ...others] = Object.entries(sources);
+  const aligned = others.map(([each, source]) => [each, { ...(source.file ? source : { file: source }), align: 'similarity' }]);
+  const timeline = { tracks: [{ to: others.at(-1)[0], begin: 0, end: 1 }] };
+  const recipe = { version: 1, name, sources: Object.fromEntries([first, ...aligned]), connectivity, timeline };
+  writeFileSync(file, JSON.stringify(recipe));
   return file;
+}
+
+/** Pictures of the morph through all sources and back, from the files in `folder` that `remesh` wrote. */
+function drawMorph(name, names, folder) {
+  const file = join(folder, 'morph.json');
+  const keys = names.map((state, time) => ({ time, state, ease: 'smoothstep' }));
+  const sources = Object.fromEntries(names.map((each) => [each, join(folder, `${each}.glb`)]));
+  const preview = { turntable: { size: [200, 200], frames: 12 }, formats: ['sheet'] };
+  writeFileSync(file, JSON.stringify({ version: 1, name: 'morph', sources, timeline: { keys }, preview }));
+  execFileSync(program, ['bake', file, '-o', folder, '--quiet'], { stdio: ['ignore', 'ignore', 'inherit'] });
+  help('shrink', join(folder, 'morph.sheet.png'), join(docs, 'connectivity', `${name}.morph.png`), '600');
 }
 
 /** What the tables need of a report: the seconds are those of making the triangles. */
@@ -58,6 +72,7 @@ function remesh(name, sources, sheet) {
   if (sheet) {
     const width = Object.keys(sources).length > 2 ? '560' : '760';
     help('shrink', join(folder, `${name}.connectivity.png`), join(docs, 'connectivity', `${name}.png`), width);
+    drawMorph(name, Object.keys(sources), folder);
   }
   return { name, wall, peak_mb: peak / 1024, ...made };
 }
@@ -101,6 +116,9 @@ function measureQuality() {
     const pair = readPair(file);
     return compare(file, { [stem(pair.a)]: side(pair, 'a'), [stem(pair.b)]: side(pair, 'b') }, remark);
   });
+  const tails = readPair('cat--spot');
+  const marked = tails.landmarks.map((mark) => (mark.name === 'tail_base' ? { ...mark, name: 'tail_tip', a: catTailTip } : mark));
+  cases.push(compare('cat--spot-tail', { cat: side({ ...tails, landmarks: marked }, 'a'), spot: side({ ...tails, landmarks: marked }, 'b') }, tailRemark));
   const wingnut = copies(join(meshes, 'wingnut.glb'), 2, 0.01);
   cases.push(compare('wingnut--copy', { wingnut: wingnut.copy0, copy: wingnut.copy1 }, copyRemark));
   cases.push(compare('four', fourAnimals(), fourRemark));
@@ -163,7 +181,8 @@ function timeTable(cases, times) {
 function sheets(cases) {
   return cases.filter((one) => !one.failed).flatMap((one) => {
     const names = new Set(one.sources.map((source) => (source.source === 'copy' ? 'wingnut' : source.source)));
-    return ['', `### ${one.name}`, '', `![Sheet of ${one.name}](connectivity/${one.name}.png)`, '', one.remark, '',
+    return ['', `### ${one.name}`, '', `![Sheet of ${one.name}](connectivity/${one.name}.png)`, '',
+      `![Morph of ${one.name}](connectivity/${one.name}.morph.png)`, '', one.remark, '',
       `<sub>${[...names].map((name) => credits[name]).join('; ')}.</sub>`];
   });
 }
@@ -175,7 +194,7 @@ writeFileSync(join(docs, 'connectivity-measured.json'), `${JSON.stringify({ conn
 writeFileSync(join(docs, 'connectivity-measured.md'), `${[
   '# How good a new connectivity is, and what it costs', '',
   `Measured by \`${command}\` on ${cpus().length} cores of ${cpus()[0].model}, ${new Date().toISOString().slice(0, 10)}: \`morphbake remesh\` with`,
-  `\`max_error\` ${connectivity.max_error} and \`max_vertices\` ${connectivity.max_vertices}. What the measures mean stands in [connectivity](connectivity.md).`,
+  `\`max_error\` ${connectivity.max_error} and \`max_vertices\` ${connectivity.max_vertices}, sources aligned by \`"align": "similarity"\`. What the measures mean stands in [connectivity](connectivity.md).`,
   '`projection` is the plainest alternative: the first source\'s triangles, brought onto the other one by the similarity',
   'that fits the landmarks, each vertex then moved to the closest point. Its seconds are for that alone.', '',
   '## Quality', '', ...qualityTable(cases), '',
@@ -184,6 +203,7 @@ writeFileSync(join(docs, 'connectivity-measured.md'), `${[
   'triangles that cut one another, in brackets those of the source itself.', '',
   '## Time and memory', '', ...timeTable(cases, times), '',
   'The whole command also measures; that of the pairs and of `four` draws the sheet, too.', '',
-  '## Sheets', '', 'A row a source: itself, its new triangles, a checker that equal places share, distortion.',
+  '## Sheets', '', 'A row a source: itself, its new triangles, a checker that equal places share, distortion. Below them the morph',
+  'to the last source and back, seen from all sides.',
   ...sheets(cases),
 ].join('\n')}\n`);

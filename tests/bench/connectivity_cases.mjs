@@ -6,9 +6,8 @@ export const pairs = [
   {
     file: 'cat--spot',
     remark:
-      'The cat\'s tail is red: the pair has a landmark at its root but none at its tip, and spot has no ' +
-      'tail to give. Spot\'s horns are red for the same reason. The front legs are stretched, since the cat ' +
-      'lies on them.',
+      'The cat\'s tail is red: the pair has a landmark at its root, which is the tip of spot\'s stub. Spot\'s horns ' +
+      'are red, since the cat has none, and the front legs, on which the cat lies.',
   },
   {
     file: 'koala--spot',
@@ -49,6 +48,10 @@ export const pairs = [
   },
 ];
 
+export const catTailTip = [1.003350019454956, 3.458050012588501, -0.15661300718784332];
+export const tailRemark =
+  'The same pair with the landmark of the tail at the tip of both. What is left is the shapes\' own: a long tail ' +
+  'becomes a stub, a small head one that is half of the body, and horns grow.';
 export const copyRemark = 'Nothing wrong; the copy\'s rounded rims are a little wavy, as even triangles made them before.';
 export const fourRemark =
   'Red where one of the four has what another lacks: the cat\'s tail, the legs that are flippers on the penguin (its chest ' +
