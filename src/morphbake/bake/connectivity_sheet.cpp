@@ -197,12 +197,12 @@ void draw_legend(Image& picture) {
     const double share = std::log(value) / std::log(kHighDistortion);
     const int at = kLeft + static_cast<int>(std::lround(share * kWidth));
     const int left = at - text_size(number, 2).x() / 2;
-    draw_text(picture, number, left, top + kHeight + 5, 2, kText);
+    draw_text(picture, number, {left, top + kHeight + 5}, 2, kText);
   }
 }
 
 void draw_title(std::string_view title, Image& picture) {
-  draw_text(picture, title, 12, 12, 2, kText);
+  draw_text(picture, title, {12, 12}, 2, kText);
 }
 
 }  // namespace

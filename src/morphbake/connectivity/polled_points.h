@@ -31,10 +31,12 @@ class Poll {
 template <typename Surface>
 class PolledPoints {
  public:
+  // NOLINTBEGIN(readability-identifier-naming): Boost asks for these names
   using key_type = typename Surface::Vertex_index;
   using value_type = typename Surface::Point;
   using reference = const value_type&;
   using category = boost::read_write_property_map_tag;
+  // NOLINTEND(readability-identifier-naming)
 
   PolledPoints() = default;  // CGAL makes some before it knows the surface
 

@@ -23,6 +23,14 @@ constexpr int kMoves = 24;    // places tried for a vertex on each layer
 
 std::size_t index(int i) { return static_cast<std::size_t>(i); }
 
+/// What is around a vertex that may move.
+struct Star {
+  std::vector<int> triangles;
+  std::vector<Corners> ring;                       ///< one a triangle, the vertex first
+  std::vector<std::array<int, 2>> edges;           ///< from the vertex to its ring
+  std::vector<std::vector<LayerTriangle>> shapes;  ///< triangle, layer
+};
+
 /// Repairs one triangulation; keeps which source vertices lie under which triangle.
 class Repair {
  public:
@@ -146,23 +154,23 @@ class Repair {
 
   bool try_move(int v) {
     if (t_.is_fixed[index(v)] || t_.on_boundary[index(v)] || t_.is_on_hard_edge(v)) return false;
-    std::vector<int> star;
-    std::vector<Corners> ring;
-    std::vector<std::array<int, 2>> edges;
-    std::vector<std::vector<LayerTriangle>> shapes;
-    t_.mesh.around(v, [&](int h) {
-      star.push_back(ClosedMesh::triangle_of(h));
-      ring.push_back({v, t_.mesh.to(h), t_.mesh.apex(h)});
-      edges.push_back({v, t_.mesh.to(h)});
-      std::vector<LayerTriangle>& layers = shapes.emplace_back();
-      for (const Layer& layer : t_.layers) {
-        layers.push_back(layer_triangle(layer, ring.back()[0], ring.back()[1], ring.back()[2]));
-      }
-    });
+    Star star = star_of(v);
     bool moved = false;
-    for (std::size_t s = 0; s < t_.layers.size(); ++s)
-      moved |= move_in(s, v, star, ring, edges, shapes);
+    for (std::size_t s = 0; s < t_.layers.size(); ++s) moved |= move_in(s, v, star);
     return moved;
+  }
+
+  Star star_of(int v) const {
+    Star star;
+    t_.mesh.around(v, [&](int h) {
+      const int a = t_.mesh.to(h), b = t_.mesh.apex(h);
+      star.triangles.push_back(ClosedMesh::triangle_of(h));
+      star.ring.push_back({v, a, b});
+      star.edges.push_back({v, a});
+      std::vector<LayerTriangle>& layers = star.shapes.emplace_back();
+      for (const Layer& layer : t_.layers) layers.push_back(layer_triangle(layer, v, a, b));
+    });
+    return star;
   }
 
   double sum_of_squares(const std::vector<std::vector<LayerTriangle>>& shapes) const {
@@ -189,19 +197,19 @@ class Repair {
     return ((1 - u) * layer.sphere[index(v)] + u * target / weight).normalized();
   }
 
-  bool move_in(std::size_t s, int v, const std::vector<int>& star, const std::vector<Corners>& ring,
-               const std::vector<std::array<int, 2>>& edges,
-               std::vector<std::vector<LayerTriangle>>& shapes) {
+  /// Tries to move a vertex on one layer; keeps the star's shapes up to date.
+  bool move_in(std::size_t s, int v, Star& star) {
+    const std::vector<Corners>& ring = star.ring;
     Layer& layer = t_.layers[s];
     const Vector3d place = layer.sphere[index(v)], lifted = layer.lifted[index(v)];
     const int triangle = layer.triangle[index(v)];
-    double best = 0.98 * sum_of_squares(shapes);
+    double best = 0.98 * sum_of_squares(star.shapes);
     bool moved = false;
-    const std::vector<Vector3d> around = guard_.samples(s, star, {});
+    const std::vector<Vector3d> around = guard_.samples(s, star.triangles, {});
     const double bound = std::max(tolerance_, guard_.largest_distance(s, around, ring));
-    const double off_bound = std::max(tolerance_, guard_.stand_off(s, ring, edges));
+    const double off_bound = std::max(tolerance_, guard_.stand_off(s, ring, star.edges));
     Vector3d best_place;
-    std::vector<std::vector<LayerTriangle>> best_shapes = shapes, tried = shapes;
+    std::vector<std::vector<LayerTriangle>> best_shapes = star.shapes, tried = star.shapes;
     for (int i = 0; i < kMoves; ++i) {
       layer.sphere[index(v)] = place;
       const Vector3d next = random_place(layer, v, ring);
@@ -216,8 +224,8 @@ class Repair {
       const double now = sum_of_squares(tried);
       if (!(now < best)) continue;
       if (guard_.largest_distance(s, around, ring) > bound ||
-          guard_.largest_distance(s, guard_.samples(s, {}, edges), ring) > bound ||
-          guard_.stand_off(s, ring, edges) > off_bound) {
+          guard_.largest_distance(s, guard_.samples(s, {}, star.edges), ring) > bound ||
+          guard_.stand_off(s, ring, star.edges) > off_bound) {
         continue;
       }
       best = now;
@@ -227,8 +235,8 @@ class Repair {
     }
     if (moved) {
       lift(layer, v, best_place, triangle);
-      shapes = best_shapes;
-      update(star, star);
+      star.shapes = best_shapes;
+      update(star.triangles, star.triangles);
     } else {
       layer.sphere[index(v)] = place;
       layer.lifted[index(v)] = lifted;

@@ -128,6 +128,10 @@ class Splitting {
     return v;
   }
 
+  std::vector<int> new_numbers() const;
+  void add_vertices(const std::vector<int>& number, CappedSurface& surface) const;
+  void add_triangles(const std::vector<int>& number, CappedSurface& surface) const;
+
   const SourceSurface& source_;
   ClosedMesh mesh_;
   int apex_;
@@ -136,21 +140,20 @@ class Splitting {
   std::map<std::pair<int, int>, bool> hard_;
 };
 
-CappedSurface Splitting::finish() && {
-  CappedSurface surface;
-  // The apex comes last, the caps come last; all else keeps its order.
+/// One a vertex: the apex comes last, all else keeps its order.
+std::vector<int> Splitting::new_numbers() const {
   std::vector<int> number(index(mesh_.vertex_slots()), 0);
   int count = 0;
   for (int v = 0; v < mesh_.vertex_slots(); ++v) {
     if (v != apex_) number[index(v)] = count++;
   }
-  if (apex_ >= 0) {
-    surface.apex = count;
-    number[index(apex_)] = count++;
-  }
-  surface.positions = Positions::Zero(count, 3);
-  surface.on_source.resize(index(count));
-  surface.on_boundary.assign(index(count), 0);
+  if (apex_ >= 0) number[index(apex_)] = count;
+  return number;
+}
+
+void Splitting::add_vertices(const std::vector<int>& number, CappedSurface& surface) const {
+  surface.positions = Positions::Zero(mesh_.vertex_slots(), 3);
+  surface.on_source.resize(number.size());
   for (int v = 0; v < mesh_.vertex_slots(); ++v) {
     if (v == apex_) continue;
     const SurfacePoint& point = points_[index(v)];
@@ -161,24 +164,36 @@ CappedSurface Splitting::finish() && {
           source_.mesh.positions.row(source_.mesh.triangles(point.triangle, k));
     }
   }
+}
+
+void Splitting::add_triangles(const std::vector<int>& number, CappedSurface& surface) const {
   const Triangles triangles = mesh_.triangles();
+  std::vector<int> order, caps;
+  for (int f = 0; f < triangles.rows(); ++f) {
+    (source_triangle_[index(f)] < 0 ? caps : order).push_back(f);
+  }
+  for (const int f : order) surface.source_triangle.push_back(source_triangle_[index(f)]);
+  surface.cap_triangles = static_cast<int>(caps.size());
+  surface.on_boundary.assign(number.size(), 0);
+  for (const int f : caps) {
+    for (const int v : triangles.row(f)) surface.on_boundary[index(number[index(v)])] = v != apex_;
+  }
+  order.insert(order.end(), caps.begin(), caps.end());
   surface.triangles.resize(triangles.rows(), 3);
-  int row = 0;
-  for (const bool caps : {false, true}) {
-    for (int f = 0; f < triangles.rows(); ++f) {
-      if ((source_triangle_[index(f)] < 0) != caps) continue;
-      for (int k = 0; k < 3; ++k) surface.triangles(row, k) = number[index(triangles(f, k))];
-      ++row;
-      if (caps) {
-        ++surface.cap_triangles;
-        for (int k = 0; k < 3; ++k) {
-          surface.on_boundary[index(number[index(triangles(f, k))])] = triangles(f, k) != apex_;
-        }
-      } else {
-        surface.source_triangle.push_back(source_triangle_[index(f)]);
-      }
+  for (int row = 0; row < triangles.rows(); ++row) {
+    for (int k = 0; k < 3; ++k) {
+      surface.triangles(row, k) = number[index(triangles(order[index(row)], k))];
     }
   }
+}
+
+CappedSurface Splitting::finish() && {
+  CappedSurface surface;
+  // The apex comes last, the caps come last; all else keeps its order.
+  const std::vector<int> number = new_numbers();
+  if (apex_ >= 0) surface.apex = number[index(apex_)];
+  add_vertices(number, surface);
+  add_triangles(number, surface);
   for (const auto& [edge, hard] : hard_) {
     const int a = number[index(edge.first)], b = number[index(edge.second)];
     surface.hard_edges.push_back({std::min(a, b), std::max(a, b)});

@@ -1,5 +1,9 @@
 #include "morphbake/correspondence/check_map.h"
 
+#ifdef __clang_analyzer__  // which mistakes how CGAL's exact numbers free their digits
+#define CGAL_DO_NOT_USE_MPZF
+#endif
+
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 
 #include <Eigen/Geometry>

@@ -31,6 +31,16 @@ int cell_of(const Vector3d& x) {
   return (side * kCells + along(1)) * kCells + along(2);
 }
 
+/// A direction through the middle of a cell.
+Vector3d middle_of(int cell) {
+  const int side = cell / (kCells * kCells), i = cell / kCells % kCells, j = cell % kCells;
+  Vector3d x;
+  x(side / 2) = side % 2 == 0 ? 1 : -1;
+  x((side / 2 + 1) % 3) = 2 * (i + 0.5) / kCells - 1;
+  x((side / 2 + 2) % 3) = 2 * (j + 0.5) / kCells - 1;
+  return x.normalized();
+}
+
 std::vector<int> find_opposites(const Triangles& triangles) {
   const int* from = triangles.data();
   std::vector<std::array<int, 3>> edges;
@@ -85,25 +95,16 @@ void SphereAtlas::fill_grid() {
     grid_[index(cell_of(middle))] = f;
   }
   // Empty cells: walk there from the last filled one.
+  const auto place = [&](int h) -> const Vector3d& { return corner(h); };
+  const auto across = [&](int h) { return opposite[index(h)]; };
   int last = 0;
-  for (int side = 0; side < 6; ++side) {
-    for (int i = 0; i < kCells; ++i) {
-      for (int j = 0; j < kCells; ++j) {
-        int& entry = grid_[index((side * kCells + i) * kCells + j)];
-        if (entry < 0) {
-          Vector3d x;
-          x(side / 2) = side % 2 == 0 ? 1 : -1;
-          x((side / 2 + 1) % 3) = 2 * (i + 0.5) / kCells - 1;
-          x((side / 2 + 2) % 3) = 2 * (j + 0.5) / kCells - 1;
-          x.normalize();
-          const auto place = [&](int h) -> const Vector3d& { return corner(h); };
-          const auto across = [&](int h) { return opposite[index(h)]; };
-          const int found = walk_to(x, last, kLongWalk, place, across);
-          entry = found < 0 ? last : found;
-        }
-        last = entry;
-      }
+  for (int cell = 0; cell < 6 * kCells * kCells; ++cell) {
+    int& entry = grid_[index(cell)];
+    if (entry < 0) {
+      const int found = walk_to(middle_of(cell), last, kLongWalk, place, across);
+      entry = found < 0 ? last : found;
     }
+    last = entry;
   }
 }
 

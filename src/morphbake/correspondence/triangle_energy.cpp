@@ -50,10 +50,17 @@ void add_energy(const RestTriangle& rest, const std::array<Vector3d, 3>& corners
                  (6 * q * r / (d * d)) * (dd * dd.transpose());
 }
 
-/// A rest triangle from its longest edge, opposite corner k: the foot of the height is `along` from
-/// the corner that follows k.
-RestTriangle rest_from_base(int k, double longest, double along, double height, double area_scale,
-                            double least_area) {
+/// A triangle on its longest edge: the foot of the height is `along` from the corner that follows
+/// the top one.
+struct OnLongestEdge {
+  int top = 0;
+  double longest = 0;
+  double along = 0;
+  double height = 0;
+};
+
+RestTriangle rest_on(const OnLongestEdge& triangle, double area_scale, double least_area) {
+  const auto& [k, longest, along, height] = triangle;
   RestTriangle rest;
   rest.cotangents((k + 1) % 3) = along / height;
   rest.cotangents((k + 2) % 3) = (longest - along) / height;
@@ -81,7 +88,7 @@ RestTriangle rest_triangle(const Vector3d& a, const Vector3d& b, const Vector3d&
   const Vector3d side = *p[k] - *p[(k + 1) % 3];
   const double height = std::max(base.cross(side).norm() / longest, limits.height * longest);
   const double along = std::clamp(side.dot(base) / longest, 0.0, longest);
-  return rest_from_base(static_cast<int>(k), longest, along, height, area_scale, limits.area);
+  return rest_on({static_cast<int>(k), longest, along, height}, area_scale, limits.area);
 }
 
 double sphere_energy(const RestTriangle& rest, const Vector3d& a, const Vector3d& b,
@@ -105,8 +112,7 @@ RestTriangle rest_triangle(const Vector3d& squared_lengths, const RestLimits& li
   const double along =
       std::clamp((to_next + longest * longest - to_last) / (2 * longest), 0.0, longest);
   const double height = std::sqrt(std::max(0.0, to_next - along * along));
-  return rest_from_base(k, longest, along, std::max(height, limits.height * longest), 1,
-                        limits.area);
+  return rest_on({k, longest, along, std::max(height, limits.height * longest)}, 1, limits.area);
 }
 
 double surface_energy(const SurfaceTriangle& triangle, const Vector3d& a, const Vector3d& b,

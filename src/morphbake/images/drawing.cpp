@@ -63,6 +63,18 @@ void blend(Image& image, int x, int y, const Ink& ink, float coverage) {
   }
 }
 
+void draw_letter(Image& image, char letter, const Eigen::Vector2i& corner, int scale,
+                 const Ink& ink) {
+  const std::string_view columns = columns_of(letter);
+  for (int column = 0; column < kLetterWidth * scale; ++column) {
+    const auto bits = static_cast<unsigned char>(columns[static_cast<std::size_t>(column / scale)]);
+    for (int row = 0; row < (kLetterHeight + 1) * scale; ++row) {
+      const bool is_set = (bits >> (row / scale) & 1) != 0;
+      if (is_set) blend(image, corner.x() + column, corner.y() + row, ink, 1);
+    }
+  }
+}
+
 /// Blends every pixel of a box by `coverage(middle of the pixel)`.
 template <class Coverage>
 void fill(Image& image, const Eigen::Vector2f& low, const Eigen::Vector2f& high, const Ink& ink,
@@ -130,19 +142,13 @@ Eigen::Vector2i text_size(std::string_view text, int scale) {
   return {std::max(0, letters * kAdvance - 1) * scale, kLetterHeight * scale};
 }
 
-void draw_text(Image& image, std::string_view text, int left, int top, int scale, const Ink& ink) {
-  int x = left;
+void draw_text(Image& image, std::string_view text, const Eigen::Vector2i& corner, int scale,
+               const Ink& ink) {
+  Eigen::Vector2i at = corner;
   for (const char letter : text) {
     if (!begins_letter(letter)) continue;
-    const std::string_view columns = columns_of(letter);
-    for (int column = 0; column < kLetterWidth * scale; ++column) {
-      const auto bits =
-          static_cast<unsigned char>(columns[static_cast<std::size_t>(column / scale)]);
-      for (int row = 0; row < (kLetterHeight + 1) * scale; ++row) {
-        if ((bits >> (row / scale) & 1) != 0) blend(image, x + column, top + row, ink, 1);
-      }
-    }
-    x += kAdvance * scale;
+    draw_letter(image, letter, at, scale, ink);
+    at.x() += kAdvance * scale;
   }
 }
 

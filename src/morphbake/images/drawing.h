@@ -38,7 +38,10 @@ void draw_line(Image& image, const Eigen::Vector2f& from, const Eigen::Vector2f&
 /// ASCII counts one letter a code point and is drawn as "?".
 Eigen::Vector2i text_size(std::string_view text, int scale);
 
-/// Draws a text whose top left corner is at (left, top).
-void draw_text(Image& image, std::string_view text, int left, int top, int scale, const Ink& ink);
+/// Draws a text.
+///
+/// @param corner  its top left one, in pixels
+void draw_text(Image& image, std::string_view text, const Eigen::Vector2i& corner, int scale,
+               const Ink& ink);
 
 }  // namespace morphbake

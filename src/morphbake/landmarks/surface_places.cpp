@@ -27,11 +27,18 @@ Eigen::RowVector3d pointing(const Side& side, const Eigen::VectorXd& distance, i
   return side.sketch.mesh.positions.row(vertex) - sum / std::max(count, 1);
 }
 
-/// The vertex of `surface` near `start` that lies furthest in `direction`: of those that are joined
-/// to `first` near by, so that a finger does not give its tip to the next.
-Eigen::RowVector3d outermost(const Mesh& surface, const OneRings& rings, int first,
-                             const Eigen::RowVector3d& start, const Eigen::RowVector3d& direction,
-                             double around) {
+/// What of a surface is near to a place and joined to a vertex there.
+struct Neighbourhood {
+  int first = 0;  ///< vertex
+  Eigen::RowVector3d start;
+  double around = 0;
+};
+
+/// The vertex of a neighbourhood that lies furthest in `direction`: only what is joined to its
+/// first counts, so that a finger does not give its tip to the next.
+Eigen::RowVector3d outermost(const Mesh& surface, const OneRings& rings, const Neighbourhood& near,
+                             const Eigen::RowVector3d& direction) {
+  const auto& [first, start, around] = near;
   std::vector<int> reached = {first};
   std::vector<char> is_reached(static_cast<std::size_t>(surface.positions.rows()), 0);
   is_reached[static_cast<std::size_t>(first)] = 1;
@@ -85,8 +92,8 @@ Positions places_on_surface(const Mesh& surface, const Side& side, const std::ve
     auto place = places.row(static_cast<Eigen::Index>(i));
     const Eigen::RowVector3d start = place;
     if (kinds[i] == PairKind::Tip) {
-      place = outermost(surface, rings, nearest_corner(surface, closest[i]), start,
-                        pointing(side, side.from_landmark[i], vertices[i]), around);
+      place = outermost(surface, rings, {nearest_corner(surface, closest[i]), start, around},
+                        pointing(side, side.from_landmark[i], vertices[i]));
     } else if (kinds[i] == PairKind::Rim && !rim.empty()) {
       place = closest_on_rim(surface, rim, start);
     } else {

@@ -114,10 +114,10 @@ class LabelPlaces {
 void draw_outlined_text(Image& image, std::string_view text, int left, int top, const Ink& ink) {
   for (int dy = -2; dy <= 2; ++dy) {
     for (int dx = -2; dx <= 2; ++dx) {
-      draw_text(image, text, left + dx, top + dy, kTextScale, {kWhite, ink.opacity});
+      draw_text(image, text, {left + dx, top + dy}, kTextScale, {kWhite, ink.opacity});
     }
   }
-  draw_text(image, text, left, top, kTextScale, ink);
+  draw_text(image, text, {left, top}, kTextScale, ink);
 }
 
 void draw_dot(Image& image, const Eigen::Vector2f& at, float radius, const Colour& colour,
@@ -180,9 +180,9 @@ void draw_legend(const std::vector<std::string>& names, int left, int top, Image
     draw_dot(sheet, {static_cast<float>(left) + 8, static_cast<float>(y) + 7}, 6, colour_of(i),
              false);
     const int right = left + 52;
-    draw_text(sheet, number, right - text_size(number, kTextScale).x(), y, kTextScale,
+    draw_text(sheet, number, {right - text_size(number, kTextScale).x(), y}, kTextScale,
               {colour_of(i), 1});
-    draw_text(sheet, names[i], left + 64, y, kTextScale, {kText, 1});
+    draw_text(sheet, names[i], {left + 64, y}, kTextScale, {kText, 1});
   }
 }
 
@@ -220,7 +220,7 @@ Image render_landmark_sheet(const std::vector<MarkedShape>& shapes,
       const std::string caption =
           column == 0 ? fmt::format("{}: {}", shortened(shape.title, size - 140), from.name)
                       : from.name;
-      draw_text(sheet, caption, left + 2, top + 2, kTextScale, {kText, 1});
+      draw_text(sheet, caption, {left + 2, top + 2}, kTextScale, {kText, 1});
     }
   }
   draw_legend(names, legend_left + kGap, kGap + kCaption, sheet);

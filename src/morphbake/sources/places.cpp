@@ -142,10 +142,8 @@ SurfacePoint point_of_triangle(Placement& placement, const Landmark& landmark,
     return {};
   }
   SurfacePoint point{triangle, {}};
-  for (int k = 0; k < 3; ++k) {
-    const int corner = surface.file_corner[static_cast<std::size_t>(3 * triangle + k)];
-    point.barycentric(k) = place.barycentric(corner % 3);
-  }
+  const auto corners = surface.file_corner.begin() + 3 * triangle;
+  for (int k = 0; k < 3; ++k) point.barycentric(k) = place.barycentric(corners[k] % 3);
   point.barycentric /= point.barycentric.sum();
   return point;
 }

@@ -19,7 +19,7 @@ TEST(Drawing, WhatLiesOutsideIsCut) {
   Image image = blank_image(4, 4, {255, 255, 255});
   draw_ring(image, {-50, 2}, 0, 10, kBlack);
   draw_line(image, {-10, -10}, {-2, -5}, 1, kBlack);
-  draw_text(image, "far away", -200, 100, 3, kBlack);
+  draw_text(image, "far away", {-200, 100}, 3, kBlack);
   EXPECT_EQ(dark_pixels(image), 0);
   draw_ring(image, {2, 2}, 0, 1000, kBlack);
   EXPECT_EQ(dark_pixels(image), 16);
@@ -42,7 +42,7 @@ TEST(Drawing, ADiscHasItsArea) {
 
 TEST(Drawing, TextFillsItsBoxAndNoMore) {
   Image image = blank_image(40, 20, {255, 255, 255});
-  draw_text(image, "H1", 2, 3, 2, kBlack);
+  draw_text(image, "H1", {2, 3}, 2, kBlack);
   const Eigen::Vector2i size = text_size("H1", 2);
   EXPECT_EQ(size, Eigen::Vector2i(22, 14));
   for (int y = 0; y < image.height; ++y) {
@@ -58,8 +58,8 @@ TEST(Drawing, TextFillsItsBoxAndNoMore) {
 TEST(Drawing, EachLetterOfOtherAlphabetsIsOneMark) {
   EXPECT_EQ(text_size("größe", 1), text_size("gross", 1));
   Image known = blank_image(12, 10, {255, 255, 255}), unknown = known;
-  draw_text(known, "?", 1, 1, 1, kBlack);
-  draw_text(unknown, "長", 1, 1, 1, kBlack);
+  draw_text(known, "?", {1, 1}, 1, kBlack);
+  draw_text(unknown, "長", {1, 1}, 1, kBlack);
   EXPECT_EQ(known.rgb, unknown.rgb);
 }
 
