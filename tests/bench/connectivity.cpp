@@ -77,8 +77,8 @@ SharedTriangulation project(const std::vector<SourceSurface>& surfaces) {
 }
 
 void measure_projection(const fs::path& file) {
-  const Recipe recipe = read_recipe(file);
-  const std::vector<SourceSurface> surfaces = own_surfaces(recipe, load_sources(recipe, {}), {});
+  const auto [recipe, sources] = load_aligned(read_recipe(file), {});
+  const std::vector<SourceSurface> surfaces = own_surfaces(recipe, sources, {});
   SharedTriangulation shared;
   const double seconds = seconds_of([&] { shared = project(surfaces); });
   RemeshReport report;

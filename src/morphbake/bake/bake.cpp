@@ -3,23 +3,14 @@
 #include "morphbake/bake/connect_sources.h"
 #include "morphbake/bake/load_sources.h"
 #include "morphbake/bake/outputs.h"
-#include "morphbake/bake/places.h"
 #include "morphbake/bake/previews.h"
 #include "morphbake/bake/stage_clock.h"
-#include "morphbake/sources/align_sources.h"
 #include "morphbake/transition/regions.h"
 
 namespace morphbake {
 namespace {
 
 std::filesystem::path stem_of(std::filesystem::path file) { return file.replace_extension(); }
-
-/// The sources where the recipe puts them, and the recipe with its places there.
-AlignedSources load_aligned(const Recipe& asked, const Observer& observer) {
-  std::vector<SourceMesh> loaded = load_sources(asked, observer);
-  Recipe recipe = with_positions(asked, loaded);
-  return align_sources(std::move(recipe), std::move(loaded), observer);
-}
 
 }  // namespace
 

@@ -8,11 +8,10 @@
 #include "morphbake/bake/load_sources.h"
 #include "morphbake/connectivity/morphable_mesh.h"
 #include "morphbake/sources/align_sources.h"
+#include "morphbake/sources/common_landmarks.h"
 
 namespace morphbake {
 namespace {
-
-constexpr std::ptrdiff_t kFewest = 3;  // landmarks that a remesh needs
 
 bool is_about_different_triangles(const Problem& problem) {
   return problem.code == "connectivity.different-triangles" ||
@@ -31,20 +30,6 @@ bool share_their_triangles(const std::vector<SourceMesh>& sources) {
   }
 }
 
-bool has_landmark(const SourceRef& source, const std::string& name) {
-  return std::any_of(source.landmarks.begin(), source.landmarks.end(),
-                     [&](const Landmark& landmark) { return landmark.name == name; });
-}
-
-std::ptrdiff_t common_landmarks(const std::vector<SourceRef>& sources) {
-  const auto& first = sources.front().landmarks;
-  return std::count_if(first.begin(), first.end(), [&](const Landmark& landmark) {
-    return std::all_of(sources.begin(), sources.end(), [&](const SourceRef& source) {
-      return has_landmark(source, landmark.name);
-    });
-  });
-}
-
 /// A file's name as a shell takes it.
 std::string in_shell(const std::string& file) {
   constexpr const char* kPlain =
@@ -55,7 +40,7 @@ std::string in_shell(const std::string& file) {
   return quoted + "'";
 }
 
-Problem too_few_landmarks(const std::vector<SourceRef>& sources, std::ptrdiff_t common) {
+Problem too_few_landmarks(const std::vector<SourceRef>& sources, std::size_t common) {
   const bool has_some = std::any_of(sources.begin(), sources.end(),
                                     [](const auto& source) { return !source.landmarks.empty(); });
   const std::string command =
@@ -70,7 +55,7 @@ Problem too_few_landmarks(const std::vector<SourceRef>& sources, std::ptrdiff_t 
       {sources[0].file.string(), ""},
       fmt::format("the sources do not share their triangles, so they need new ones by landmarks; "
                   "they have {} in common, and {} are needed",
-                  common, kFewest),
+                  common, kFewestLandmarks),
       std::move(hint)};
 }
 
@@ -81,8 +66,8 @@ FirstChoices first_choices(const Recipe& draft, const Observer& observer) {
   FirstChoices choices;
   if (share_their_triangles(sources)) return choices;
   choices.remesh = true;
-  const std::ptrdiff_t common = common_landmarks(draft.sources);
-  if (common < kFewest) throw BakeError(too_few_landmarks(draft.sources, common));
+  const std::size_t common = common_landmark_names(draft.sources).size();
+  if (common < kFewestLandmarks) throw BakeError(too_few_landmarks(draft.sources, common));
   for (const SourceMesh& source : sources) {
     choices.is_unlike.push_back(is_unlike(sources.front(), source));
   }

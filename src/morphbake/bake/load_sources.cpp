@@ -1,5 +1,9 @@
 #include "morphbake/bake/load_sources.h"
 
+#include <utility>
+
+#include "morphbake/bake/places.h"
+
 namespace morphbake {
 
 std::vector<SourceMesh> load_sources(const Recipe& recipe, const Observer& observer) {
@@ -16,6 +20,12 @@ std::vector<SourceMesh> load_sources(const Recipe& recipe, const Observer& obser
   }
   if (!problems.empty()) throw BakeError(problems);
   return sources;
+}
+
+AlignedSources load_aligned(const Recipe& recipe, const Observer& observer) {
+  std::vector<SourceMesh> loaded = load_sources(recipe, observer);
+  Recipe placed = with_positions(recipe, loaded);
+  return align_sources(std::move(placed), std::move(loaded), observer);
 }
 
 Observer recording(const Observer& observer, std::vector<Problem>& problems) {

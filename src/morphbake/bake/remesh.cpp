@@ -10,7 +10,6 @@
 #include "morphbake/bake/load_sources.h"
 #include "morphbake/files/files.h"
 #include "morphbake/json/json.h"
-#include "morphbake/sources/align_sources.h"
 
 namespace morphbake {
 namespace {
@@ -106,7 +105,7 @@ RemeshReport remesh(const Recipe& asked, const BakeOptions& options, const fs::p
   const Observer observer = recording(caller, result.problems);
   StageClock clock(observer);
   clock.start("sources");
-  const auto [recipe, sources] = align_sources(asked, load_sources(asked, observer), observer);
+  const auto [recipe, sources] = load_aligned(asked, observer);
   const RemeshedSources remeshed = remesh_sources(recipe, sources, clock, observer);
   clock.start("measure");
   ConnectivityReport& connectivity = result.connectivity;

@@ -80,7 +80,7 @@ std::vector<SourceSurface> own_surfaces(const Recipe& recipe,
     stop_if_cancelled(observer);
     surfaces.push_back(source_surface(sources[s], recipe.sources[s], observer, problems));
   }
-  for (Problem& problem : common_landmark_problems(surfaces, recipe.sources)) {
+  for (Problem& problem : common_landmark_problems(recipe.sources)) {
     if (problem.severity == Severity::Error) problems.push_back(std::move(problem));
   }
   stop_if_cancelled(observer);

@@ -7,7 +7,6 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <set>
 #include <string>
 #include <utility>
@@ -18,6 +17,7 @@
 #include "morphbake/connectivity/shared_triangulation.h"
 #include "morphbake/connectivity/surface_checks.h"
 #include "morphbake/diagnostics/problem.h"
+#include "morphbake/mesh/adjacency.h"
 #include "morphbake/mesh/closest_point.h"
 #include "morphbake/mesh/measures.h"
 
@@ -261,25 +261,19 @@ bool has_area(const Mesh& mesh, Eigen::Index triangle) {
 void check_pieces_have_area(const SourceSurface& source) {
   constexpr std::size_t kPlaces = 3;  // how many places the message names
   const Triangles& triangles = source.mesh.triangles;
-  std::vector<int> parent(static_cast<std::size_t>(source.mesh.positions.rows()));
-  std::iota(parent.begin(), parent.end(), 0);
-  const auto root = [&](int v) {
-    while (parent[static_cast<std::size_t>(v)] != v) {
-      int& up = parent[static_cast<std::size_t>(v)];
-      v = up = parent[static_cast<std::size_t>(up)];
-    }
-    return static_cast<std::size_t>(v);
+  const auto vertices = static_cast<int>(source.mesh.positions.rows());
+  const Components pieces = connected_components(one_rings({vertices, triangles}));
+  const auto piece_of = [&](Eigen::Index f) {
+    const int label = pieces.label[static_cast<std::size_t>(triangles(f, 0))];
+    return static_cast<std::size_t>(label);
   };
-  for (const auto& triangle : triangles.rowwise()) {
-    for (int k = 1; k < 3; ++k) parent[root(triangle(k))] = static_cast<int>(root(triangle(0)));
-  }
-  std::vector<char> is_told(parent.size(), 0);  // of roots; those with area need not be
+  std::vector<char> is_told(static_cast<std::size_t>(pieces.count), 0);  // or need not be
   for (Eigen::Index f = 0; f < triangles.rows(); ++f) {
-    if (has_area(source.mesh, f)) is_told[root(triangles(f, 0))] = 1;
+    if (has_area(source.mesh, f)) is_told[piece_of(f)] = 1;
   }
   std::vector<std::string> places;
   for (Eigen::Index f = 0; f < triangles.rows() && places.size() < kPlaces; ++f) {
-    if (std::exchange(is_told[root(triangles(f, 0))], 1) != 0) continue;
+    if (std::exchange(is_told[piece_of(f)], 1) != 0) continue;
     const Eigen::RowVector3d at = source.mesh.positions.row(triangles(f, 0));
     places.push_back(fmt::format("({:.4g}, {:.4g}, {:.4g})", at(0), at(1), at(2)));
   }

@@ -10,68 +10,25 @@
 #include <utility>
 
 #include "morphbake/landmarks/correspondences.h"
+#include "morphbake/landmarks/doubts.h"
 #include "morphbake/landmarks/surface_places.h"
 #include "morphbake/mesh/measures.h"
+#include "morphbake/sources/common_landmarks.h"
 
 namespace morphbake {
 namespace {
 
-constexpr int kFewest = 3;
-constexpr double kFarthest = 0.15;        // in `reach`: nearer points say nothing new
-constexpr double kMirrorFits = 0.3;       // of the distance without a mirror
-constexpr double kMirrorMatters = 0.003;  // of the diagonal
-constexpr double kUnlike = 0.28;          // `Alignment::cost` from which pairs are doubtful
-constexpr double kOnPlane = 0.05;         // in `reach`: is on the mirror plane
-constexpr double kStandsOut = 0.5;        // in boxes of half size 1
-constexpr double kApartOfSummit = 0.2;    // in `reach`
-constexpr double kOnRim = 0.15;           // in `reach`: such a tip is a corner of the rim
+constexpr double kFarthest = 0.15;      // in `reach`: nearer points say nothing new
+constexpr double kOnPlane = 0.05;       // in `reach`: is on the mirror plane
+constexpr double kStandsOut = 0.5;      // in boxes of half size 1
+constexpr double kApartOfSummit = 0.2;  // in `reach`
+constexpr double kOnRim = 0.15;         // in `reach`: such a tip is a corner of the rim
 
 /// A tip, or a mirrored pair of tips, that waits to become landmarks.
 struct TipUnit {
   double prominence = 0;
   std::vector<std::pair<int, int>> tips;  ///< of a and b; -1 where the shape has none
 };
-
-void warn(const Observer& observer, const SourceSurface& surface, const char* code,
-          std::string message, std::string hint) {
-  report(observer,
-         Problem{Severity::Warning, code, {surface.file, ""}, std::move(message), std::move(hint)});
-}
-
-void warn_of_pieces(const Observer& observer, const SourceSurface& surface,
-                    const ShapeSketch& sketch) {
-  if (sketch.pieces == 1) return;
-  warn(observer, surface, "landmarks.several-pieces",
-       fmt::format("\"{}\" has {} pieces; landmarks are proposed on the largest", surface.name,
-                   sketch.pieces),
-       "give the other pieces landmarks by hand");
-}
-
-void warn_of_borders(const Observer& observer, const SourceSurface& a, const SourceSurface& b,
-                     const ShapeSketch& sketch_a, const ShapeSketch& sketch_b) {
-  if (sketch_a.boundary.empty() == sketch_b.boundary.empty()) return;
-  const bool is_a_open = !sketch_a.boundary.empty();
-  warn(observer, is_a_open ? a : b, "correspondence.different-topology",
-       fmt::format("\"{}\" is open (it has a border) but \"{}\" is closed: they cannot be remeshed "
-                   "together",
-                   is_a_open ? a.name : b.name, is_a_open ? b.name : a.name),
-       "cut or fill one of them");
-}
-
-void warn_of_mirror(const Observer& observer, const SourceSurface& a, const SourceSurface& b,
-                    const Correspondences& all, const Alignment& kept) {
-  const Alignment mirrored = align_shapes(all.a.sketch, all.b.sketch, Handedness::Mirrored);
-  const double apart = surface_distance(all.a.sketch, all.b.sketch, kept, Handedness::Kept);
-  const double in_mirror =
-      surface_distance(all.a.sketch, all.b.sketch, mirrored, Handedness::Mirrored);
-  if (!(apart > kMirrorMatters) || !(in_mirror < kMirrorFits * apart)) return;
-  warn(observer, b, "landmarks.mirrored",
-       fmt::format("\"{}\" is a mirror image of \"{}\": their surfaces differ by {:.2g} % of the "
-                   "diagonal in a mirror, by {:.2g} % without",
-                   b.name, a.name, 100 * in_mirror, 100 * apart),
-       "mirror one of the files, or the morph turns inside out where they differ; the landmarks "
-       "keep left to left");
-}
 
 /// How far a tip of a shape stands out; of a pair, the less prominent of both.
 double prominence_of(const Side& side, int tip) {
@@ -320,33 +277,6 @@ std::vector<std::string> names_of_pairs(const std::vector<VertexPair>& pairs) {
   return names;
 }
 
-/// Two signs of wrong pairs: few tips have a partner, or even the best alignment is a bad one.
-/// `kUnlike` is measured on seventeen pairs with known landmarks: most that were paired well cost
-/// up to 0.25 (a pig beside a giraffe 0.39), cat and cow, fish and plane, penguin and baby, horse
-/// and bird 0.31 to 0.36.
-void warn_if_uncertain(const Observer& observer, const SourceSurface& a, const SourceSurface& b,
-                       const Correspondences& all, const Alignment& kept) {
-  const auto matched =
-      std::count_if(kept.partner.begin(), kept.partner.end(), [](int p) { return p >= 0; });
-  const auto tips_a = static_cast<std::ptrdiff_t>(all.a.sketch.tips.size());
-  const auto tips_b = static_cast<std::ptrdiff_t>(all.b.sketch.tips.size());
-  const char* hint = "look at the sheet, and move the landmarks that are wrong";
-  if (matched < kFewest || 2 * matched < std::min(tips_a, tips_b)) {
-    warn(observer, b, "landmarks.uncertain",
-         fmt::format("{} tips of \"{}\" and {} of \"{}\" stand out, but only {} correspond; most "
-                     "landmarks are guesses",
-                     tips_a, a.name, tips_b, b.name, matched),
-         hint);
-  } else if (kept.cost > kUnlike) {
-    warn(observer, b, "landmarks.uncertain",
-         fmt::format(
-             "the tips of \"{}\" and \"{}\" lie differently (by {:.2f}, where {:.2f} is usual "
-             "at most); some landmarks are probably wrong",
-             a.name, b.name, kept.cost, kUnlike),
-         hint);
-  }
-}
-
 }  // namespace
 
 SuggestedLandmarks suggest_landmarks(const SourceSurface& a, const SourceSurface& b,
@@ -377,7 +307,7 @@ SuggestedLandmarks suggest_landmarks(const SourceSurface& a, const SourceSurface
   add_rim(all, std::min(kRimPoints, options.count));
   add_tips(all, kept.partner, has_rim ? std::max(options.count, kRimPoints) : options.count);
   add_far_points(all, options.count);
-  if (static_cast<int>(all.pairs.size()) < kFewest) {
+  if (all.pairs.size() < kFewestLandmarks) {
     throw BakeError(Problem{Severity::Error,
                             "landmarks.nothing-found",
                             {b.file, ""},

@@ -10,6 +10,7 @@
 
 #include "morphbake/json/json.h"
 #include "morphbake/mesh/measures.h"
+#include "morphbake/sources/common_landmarks.h"
 #include "morphbake/sources/places.h"
 
 namespace morphbake {
@@ -23,39 +24,24 @@ constexpr double kFlat = 1e-6;     // of the largest extent: no direction at all
 constexpr double kUnlikeSize = 4;  // times
 
 /// Landmarks of two sources that have one name; columns correspond.
-struct CommonLandmarks {
+struct LandmarkPairs {
   Matrix3Xd from;
   Matrix3Xd to;
 };
 
-std::vector<Vector3d> landmark_positions(const SourceMesh& source, const SourceRef& ref) {
-  std::vector<Vector3d> positions;
-  for (const Landmark& landmark : ref.landmarks) {
+/// Where landmarks of these names are.
+Matrix3Xd landmark_positions(const SourceMesh& source, const SourceRef& ref,
+                             const std::vector<std::string>& names) {
+  Matrix3Xd positions(3, static_cast<Eigen::Index>(names.size()));
+  for (Eigen::Index i = 0; i < positions.cols(); ++i) {
+    const std::string& name = names[static_cast<std::size_t>(i)];
+    const auto landmark = std::find_if(ref.landmarks.begin(), ref.landmarks.end(),
+                                       [&](const Landmark& each) { return each.name == name; });
     Location location = ref.landmarks_at;
-    location.pointer = child_pointer(location.pointer, landmark.name);
-    positions.push_back(scene_position(source, landmark.at, location));
+    location.pointer = child_pointer(location.pointer, name);
+    positions.col(i) = scene_position(source, landmark->at, location);
   }
   return positions;
-}
-
-CommonLandmarks common_landmarks(const SourceMesh& from, const SourceRef& from_ref,
-                                 const SourceMesh& to, const SourceRef& to_ref) {
-  const std::vector<Vector3d> from_at = landmark_positions(from, from_ref);
-  const std::vector<Vector3d> to_at = landmark_positions(to, to_ref);
-  std::vector<std::pair<std::size_t, std::size_t>> pairs;
-  for (std::size_t i = 0; i < from_at.size(); ++i) {
-    for (std::size_t j = 0; j < to_at.size(); ++j) {
-      if (from_ref.landmarks[i].name == to_ref.landmarks[j].name) pairs.emplace_back(i, j);
-    }
-  }
-  CommonLandmarks common;
-  common.from.resize(3, static_cast<Eigen::Index>(pairs.size()));
-  common.to.resize(3, static_cast<Eigen::Index>(pairs.size()));
-  for (std::size_t p = 0; p < pairs.size(); ++p) {
-    common.from.col(static_cast<Eigen::Index>(p)) = from_at[pairs[p].first];
-    common.to.col(static_cast<Eigen::Index>(p)) = to_at[pairs[p].second];
-  }
-  return common;
 }
 
 /// How many directions points extend in: 0 to 3.
@@ -93,7 +79,7 @@ Affine3d map_of_extents(Align align, const SourceMesh& from, const SourceMesh& t
   return map;
 }
 
-Affine3d affine_map(const CommonLandmarks& marks) {
+Affine3d affine_map(const LandmarkPairs& marks) {
   const Vector3d from_centre = marks.from.rowwise().mean(), to_centre = marks.to.rowwise().mean();
   const Matrix3Xd from = marks.from.colwise() - from_centre;
   const Matrix3Xd to = marks.to.colwise() - to_centre;
@@ -103,7 +89,7 @@ Affine3d affine_map(const CommonLandmarks& marks) {
   return map;
 }
 
-Affine3d landmark_map(Align align, const CommonLandmarks& marks) {
+Affine3d landmark_map(Align align, const LandmarkPairs& marks) {
   if (align == Align::Affine) return affine_map(marks);
   Affine3d map = Affine3d::Identity();
   if (align == Align::Translation) {
@@ -127,10 +113,13 @@ Affine3d landmark_map(Align align, const CommonLandmarks& marks) {
 /// The map of source `s` onto the first one.
 Affine3d alignment(const Recipe& recipe, const std::vector<SourceMesh>& sources, std::size_t s) {
   const Align align = recipe.sources[s].align;
-  const CommonLandmarks marks =
-      common_landmarks(sources[s], recipe.sources[s], sources[0], recipe.sources[0]);
+  const std::vector<std::string> names =
+      common_landmark_names({recipe.sources[0], recipe.sources[s]});
+  const LandmarkPairs marks{landmark_positions(sources[s], recipe.sources[s], names),
+                            landmark_positions(sources[0], recipe.sources[0], names)};
   const bool is_affine = align == Align::Affine;
-  if (marks.from.cols() < 3 && !is_affine) return map_of_extents(align, sources[s], sources[0]);
+  if (names.size() < kFewestLandmarks && !is_affine)
+    return map_of_extents(align, sources[s], sources[0]);
   if (align != Align::Translation) {
     const int needed = is_affine ? 3 : 2;
     if (marks.from.cols() <= needed || dimension(marks.from) < needed ||

@@ -10,46 +10,44 @@
 namespace morphbake {
 namespace {
 
-constexpr std::size_t kFewest = 3;  // two points leave a turn about both open
-
-int index_of(const SourceSurface& surface, const std::string& name) {
-  const auto& names = surface.landmark_names;
-  const auto found = std::find(names.begin(), names.end(), name);
-  return found == names.end() ? -1 : static_cast<int>(found - names.begin());
+bool has_landmark(const SourceRef& source, const std::string& name) {
+  return std::any_of(source.landmarks.begin(), source.landmarks.end(),
+                     [&](const Landmark& landmark) { return landmark.name == name; });
 }
 
 /// All names, each once, in order of appearance.
-std::vector<std::string> all_names(const std::vector<SourceSurface>& surfaces) {
+std::vector<std::string> all_names(const std::vector<SourceRef>& sources) {
   std::vector<std::string> names;
-  for (const SourceSurface& surface : surfaces) {
-    for (const std::string& name : surface.landmark_names) {
-      if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+  for (const SourceRef& source : sources) {
+    for (const Landmark& landmark : source.landmarks) {
+      if (std::find(names.begin(), names.end(), landmark.name) == names.end()) {
+        names.push_back(landmark.name);
+      }
     }
   }
   return names;
 }
 
 /// Where the landmarks of a source stand, or should.
-Location place_of(const SourceSurface& surface, const SourceRef& ref) {
-  return ref.landmarks_at.file.empty() ? Location{surface.file, ""} : ref.landmarks_at;
+Location place_of(const SourceRef& source) {
+  return source.landmarks_at.file.empty() ? Location{source.file.string(), ""}
+                                          : source.landmarks_at;
 }
 
 /// One problem for each source that lacks landmarks.
-std::vector<Problem> missing_landmarks(const std::vector<SourceSurface>& surfaces,
-                                       const std::vector<SourceRef>& refs,
-                                       const std::vector<std::string>& names, Severity severity) {
+std::vector<Problem> missing_landmarks(const std::vector<SourceRef>& sources, Severity severity) {
+  const std::vector<std::string> names = all_names(sources);
   std::vector<Problem> problems;
-  for (std::size_t s = 0; s < surfaces.size(); ++s) {
-    const SourceSurface& surface = surfaces[s];
+  for (const SourceRef& source : sources) {
     std::vector<std::string> missing;
     for (const std::string& name : names) {
-      if (index_of(surface, name) < 0) missing.push_back(name);
+      if (!has_landmark(source, name)) missing.push_back(name);
     }
     if (missing.empty()) continue;
     const bool is_error = severity == Severity::Error;
-    problems.push_back({severity, "landmarks.missing", place_of(surface, refs[s]),
+    problems.push_back({severity, "landmarks.missing", place_of(source),
                         fmt::format("\"{}\" lacks landmarks that other sources have: {}",
-                                    surface.name, name_list(missing)),
+                                    source.name, name_list(missing)),
                         is_error
                             ? "`morphbake landmarks suggest` proposes landmarks of two sources"
                             : "they are left out; only landmarks of all sources guide the map"});
@@ -57,47 +55,47 @@ std::vector<Problem> missing_landmarks(const std::vector<SourceSurface>& surface
   return problems;
 }
 
-/// The names that all surfaces have, in the first one's order.
-std::vector<std::string> common_names(const std::vector<SourceSurface>& surfaces) {
+}  // namespace
+
+std::vector<std::string> common_landmark_names(const std::vector<SourceRef>& sources) {
   std::vector<std::string> common;
-  for (const std::string& name : all_names(surfaces)) {
+  for (const Landmark& landmark : sources.front().landmarks) {
     const bool is_common =
-        std::all_of(surfaces.begin(), surfaces.end(),
-                    [&](const SourceSurface& surface) { return index_of(surface, name) >= 0; });
-    if (is_common) common.push_back(name);
+        std::all_of(sources.begin(), sources.end(),
+                    [&](const SourceRef& source) { return has_landmark(source, landmark.name); });
+    if (is_common) common.push_back(landmark.name);
   }
   return common;
 }
 
-}  // namespace
-
-std::vector<Problem> common_landmark_problems(const std::vector<SourceSurface>& surfaces,
-                                              const std::vector<SourceRef>& refs) {
-  const std::size_t common = common_names(surfaces).size();
-  const Severity severity = common < kFewest ? Severity::Error : Severity::Warning;
-  std::vector<Problem> problems = missing_landmarks(surfaces, refs, all_names(surfaces), severity);
-  if (common >= kFewest) return problems;
-  problems.insert(
-      problems.begin(),
-      Problem{
-          Severity::Error, "landmarks.too-few", place_of(surfaces.front(), refs.front()),
-          fmt::format("the sources have {} landmarks in common; {} are needed", common, kFewest),
-          "name the same points on every source, or let `morphbake landmarks "
-          "suggest` propose them"});
+std::vector<Problem> common_landmark_problems(const std::vector<SourceRef>& sources) {
+  const std::size_t common = common_landmark_names(sources).size();
+  const bool is_enough = common >= kFewestLandmarks;
+  std::vector<Problem> problems =
+      missing_landmarks(sources, is_enough ? Severity::Warning : Severity::Error);
+  if (is_enough) return problems;
+  problems.insert(problems.begin(),
+                  Problem{Severity::Error, "landmarks.too-few", place_of(sources.front()),
+                          fmt::format("the sources have {} landmarks in common; {} are needed",
+                                      common, kFewestLandmarks),
+                          "name the same points on every source, or let `morphbake landmarks "
+                          "suggest` propose them"});
   return problems;
 }
 
 std::vector<SourceSurface> with_common_landmarks(std::vector<SourceSurface> surfaces,
-                                                 const std::vector<SourceRef>& refs,
+                                                 const std::vector<SourceRef>& sources,
                                                  const Observer& observer) {
-  const std::vector<std::string> common = common_names(surfaces);
-  std::vector<Problem> problems = common_landmark_problems(surfaces, refs);
-  if (common.size() < kFewest) throw BakeError(std::move(problems));
+  const std::vector<std::string> common = common_landmark_names(sources);
+  std::vector<Problem> problems = common_landmark_problems(sources);
+  if (common.size() < kFewestLandmarks) throw BakeError(std::move(problems));
   for (const Problem& problem : problems) report(observer, problem);
   for (SourceSurface& surface : surfaces) {
     std::vector<SurfacePoint> points;
     for (const std::string& name : common) {
-      points.push_back(surface.landmarks[static_cast<std::size_t>(index_of(surface, name))]);
+      const auto& names = surface.landmark_names;
+      const auto found = std::find(names.begin(), names.end(), name);
+      points.push_back(surface.landmarks[static_cast<std::size_t>(found - names.begin())]);
     }
     surface.landmark_names = common;
     surface.landmarks = std::move(points);

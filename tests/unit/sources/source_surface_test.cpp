@@ -133,17 +133,21 @@ SourceSurface named(const std::string& name, const std::vector<std::string>& lan
   return surface;
 }
 
-SourceRef in_recipe(const std::string& name) {
+SourceRef in_recipe(const SourceSurface& surface) {
+  const std::string& name = surface.name;
   SourceRef ref;
   ref.name = name;
+  for (const std::string& landmark : surface.landmark_names) {
+    ref.landmarks.push_back({landmark, VertexPlace{0}});
+  }
   ref.landmarks_at = {"recipe.json", "/sources/" + name + "/landmarks"};
   return ref;
 }
 
 TEST(CommonLandmarks, FewerThanThreeAreTooFew) {
+  const SourceSurface x = named("x", {"a", "b", "c"}), y = named("y", {"b", "c", "d"});
   try {
-    with_common_landmarks({named("x", {"a", "b", "c"}), named("y", {"b", "c", "d"})},
-                          {in_recipe("x"), in_recipe("y")}, {});
+    with_common_landmarks({x, y}, {in_recipe(x), in_recipe(y)}, {});
     FAIL();
   } catch (const BakeError& error) {
     ASSERT_EQ(error.problems().size(), 3U);
@@ -161,9 +165,8 @@ TEST(CommonLandmarks, StandInOneOrderAndTheRestIsTold) {
   Observer observer;
   std::vector<Problem> warnings;
   observer.on_problem = [&](const Problem& problem) { warnings.push_back(problem); };
-  const auto surfaces =
-      with_common_landmarks({named("x", {"a", "b", "c", "d"}), named("y", {"d", "c", "b"})},
-                            {in_recipe("x"), in_recipe("y")}, observer);
+  const SourceSurface x = named("x", {"a", "b", "c", "d"}), y = named("y", {"d", "c", "b"});
+  const auto surfaces = with_common_landmarks({x, y}, {in_recipe(x), in_recipe(y)}, observer);
   for (const SourceSurface& surface : surfaces) {
     EXPECT_EQ(surface.landmark_names, (std::vector<std::string>{"b", "c", "d"}));
     ASSERT_EQ(surface.landmarks.size(), 3U);
