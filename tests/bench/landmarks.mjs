@@ -49,7 +49,7 @@ const rows = readdirSync(meshes).filter((file) => /^pair-.*\.json$/.test(file)).
 writeFileSync(join(docs, 'landmarks-measured.md'), `${[
   '# How good suggested landmarks are', '',
   `Measured by \`${command}\`, ${new Date().toISOString().slice(0, 10)}: \`morphbake landmarks suggest\` on pairs of real meshes`,
-  `with landmarks set by hand. Right: within ${100 * NEAR} % of the diagonal of one of these on both meshes; wrong: so near on one`,
+  `with landmarks set by hand. Right: within ${Math.round(100 * NEAR)} % of the diagonal of one of these on both meshes; wrong: so near on one`,
   'mesh and twice as far away on the other; the others are near none, so nobody said what they should be. The limits of',
   'suggesting, and from where on it warns (`landmarks.uncertain`), were chosen while looking at these pairs: expect less of others.',
   '', '| pair | right | wrong | not judged | warns |', '|---|---:|---:|---:|---|',

@@ -66,7 +66,8 @@ void warn_if_uncertain(const Observer& observer, const SourceSurface& a, const S
   const auto tips_a = static_cast<std::ptrdiff_t>(all.a.sketch.tips.size());
   const auto tips_b = static_cast<std::ptrdiff_t>(all.b.sketch.tips.size());
   const char* hint = "look at the sheet, and move the landmarks that are wrong";
-  if (matched < static_cast<std::ptrdiff_t>(kFewestLandmarks) || 2 * matched < std::min(tips_a, tips_b)) {
+  if (matched < static_cast<std::ptrdiff_t>(kFewestLandmarks) ||
+      2 * matched < std::min(tips_a, tips_b)) {
     warn(observer, b, "landmarks.uncertain",
          fmt::format("{} tips of \"{}\" and {} of \"{}\" stand out, but only {} correspond; most "
                      "landmarks are guesses",
