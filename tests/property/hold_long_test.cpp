@@ -113,22 +113,24 @@ class QuadrupleSolution {
     factor_.compute(L_F.transpose() * L_F);
   }
 
+  void add_edge(int i, int j, QuadRow& sum) const {
+    for (int c = 0; c < 3; ++c) {
+      const auto k = static_cast<std::size_t>(c);
+      for (int s = 0; s < 2; ++s) {
+        const Positions& V = half_.mesh.geometries[static_cast<std::size_t>(s)];
+        const Quad share = (Quad(half_.change(s, i)) + Quad(half_.change(s, j))) / 2;
+        sum[k] += share * (Quad(V(i, c)) - Quad(V(j, c)));
+      }
+      sum[k] -= u_[static_cast<std::size_t>(i)][k] - u_[static_cast<std::size_t>(j)][k];
+    }
+  }
+
   /// Deg^-1 b(dT) - L u with eq. 6's differences blended along edges.
   std::vector<QuadRow> misfit() const {
     std::vector<QuadRow> e(u_.size(), QuadRow{0, 0, 0});
     for (int i = 0; i < static_cast<int>(u_.size()); ++i) {
       const auto v = static_cast<std::size_t>(i);
-      half_.for_each_neighbour(i, [&](int j) {
-        for (int c = 0; c < 3; ++c) {
-          const auto k = static_cast<std::size_t>(c);
-          for (int s = 0; s < 2; ++s) {
-            const Positions& V = half_.mesh.geometries[static_cast<std::size_t>(s)];
-            const Quad share = (Quad(half_.change(s, i)) + Quad(half_.change(s, j))) / 2;
-            e[v][k] += share * (Quad(V(i, c)) - Quad(V(j, c)));
-          }
-          e[v][k] -= u_[v][k] - u_[static_cast<std::size_t>(j)][k];
-        }
-      });
+      half_.for_each_neighbour(i, [&](int j) { add_edge(i, j, e[v]); });
       for (Quad& component : e[v]) component /= half_.rings.degree(i);
     }
     return e;

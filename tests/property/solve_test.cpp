@@ -105,20 +105,20 @@ TEST(Solve, EdgeRightHandSideSumsToZeroInEveryComponent) {
 
 /// K_L and b of eq. 6 by loops over dense matrices: nothing shared with the library but the rings.
 struct DenseSystem {
-  Eigen::MatrixXd K_L, edge_b, vertex_b, variation;
+  Eigen::MatrixXd matrix, edge_b, vertex_b, variation;
 
   DenseSystem(const MorphableMesh& mesh, const Eigen::MatrixXd& change) {
     const OneRings rings = one_rings(mesh.connectivity);
     const int count = mesh.connectivity.vertex_count;
-    K_L = Eigen::MatrixXd::Zero(count, count);
+    matrix = Eigen::MatrixXd::Zero(count, count);
     edge_b = vertex_b = Eigen::MatrixXd::Zero(count, 3);
     variation = Eigen::MatrixXd::Zero(count, 1);
     for (int i = 0; i < count; ++i) {
       for (int n = rings.offsets[static_cast<std::size_t>(i)];
            n < rings.offsets[static_cast<std::size_t>(i) + 1]; ++n) {
         const int j = rings.neighbours[static_cast<std::size_t>(n)];
-        K_L(i, i) += 1;
-        K_L(i, j) -= 1;
+        matrix(i, i) += 1;
+        matrix(i, j) -= 1;
         for (std::size_t s = 0; s < mesh.geometries.size(); ++s) {
           const auto row = static_cast<Eigen::Index>(s);
           const Eigen::RowVector3d edge = mesh.geometries[s].row(i) - mesh.geometries[s].row(j);
@@ -163,7 +163,7 @@ TEST(Solve, EqualsADenseSolution) {
   const DenseSystem dense(scene.mesh, scene.change);
   const Constraints constraints = constraints_for(scene.mesh, scene.change, hold_nothing());
   const Positions expected =
-      dense_solution(dense.K_L, dense.edge_b, constraints.gauge, scene.blend());
+      dense_solution(dense.matrix, dense.edge_b, constraints.gauge, scene.blend());
   EXPECT_LT(largest_distance(displaced(scene.mesh, scene.change), expected),
             1e-11 * diagonal_of(scene.mesh));
 }
@@ -175,7 +175,7 @@ TEST(Solve, VertexRightHandSideSpreadsItsImbalanceWhereSharesVary) {
   EXPECT_GT(sum.norm(), 0.1);
   const Eigen::MatrixXd b = dense.vertex_b - dense.variation * sum / dense.variation.sum();
   const Constraints constraints = constraints_for(scene.mesh, scene.change, hold_nothing());
-  const Positions expected = dense_solution(dense.K_L, b, constraints.gauge, scene.blend());
+  const Positions expected = dense_solution(dense.matrix, b, constraints.gauge, scene.blend());
   SolveOptions options;
   options.right_hand_side = RightHandSide::Vertex;
   EXPECT_LT(
@@ -188,7 +188,7 @@ TEST(Solve, AnchorDropsItsEquation) {
   const SmallScene scene;
   const DenseSystem dense(scene.mesh, scene.change);
   constexpr int kAnchor = 17;
-  Eigen::MatrixXd K_L = dense.K_L, b = dense.vertex_b;
+  Eigen::MatrixXd K_L = dense.matrix, b = dense.vertex_b;
   K_L.row(kAnchor).setZero();
   K_L(kAnchor, kAnchor) = 1;
   b.row(kAnchor) = scene.blend().row(kAnchor);

@@ -202,9 +202,11 @@ double dihedral(const Positions& V, int a, int b, int left, int right) {
 std::vector<double> crease(const MorphableMesh& mesh, const std::vector<bool>& held,
                            const Eigen::MatrixXd& change, const Positions& moved) {
   std::map<std::pair<int, int>, int> opposite;
-  const Triangles& F = mesh.connectivity.triangles;
-  for (Eigen::Index f = 0; f < F.rows(); ++f) {
-    for (int k = 0; k < 3; ++k) opposite[{F(f, k), F(f, (k + 1) % 3)}] = F(f, (k + 2) % 3);
+  const Triangles& faces = mesh.connectivity.triangles;
+  for (Eigen::Index f = 0; f < faces.rows(); ++f) {
+    for (int k = 0; k < 3; ++k) {
+      opposite[{faces(f, k), faces(f, (k + 1) % 3)}] = faces(f, (k + 2) % 3);
+    }
   }
   const Positions& rest = mesh.geometries[0];
   const Positions now = rest + moved;

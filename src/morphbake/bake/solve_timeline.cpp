@@ -211,8 +211,11 @@ std::unique_ptr<SolvedTimeline> solve_timeline(const Recipe& recipe, const Morph
     const auto change_at = [&, start](double time) -> Eigen::MatrixXd {
       return transition_at(recipe, regions, count, time) - start;
     };
-    solved->frames = solved_frames(*solved->solver, reference_positions(mesh, separable.reference),
-                                   frame_times(recipe.timeline), change_at, observer, records);
+    SolvedFrames frames =
+        solved_frames(*solved->solver, reference_positions(mesh, separable.reference),
+                      frame_times(recipe.timeline), change_at, observer);
+    solved->frames = std::move(frames.source);
+    records = std::move(frames.records);
   } else {
     solved->shapes = solve_fields(*solved->solver, mesh, separable, observer);
     solved->frames = combined_frames(solved->shapes, separable, recipe.timeline);

@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <cstring>
 #include <memory>
+#include <utility>
 
 #include "morphbake/diagnostics/problem.h"
 
@@ -55,15 +56,15 @@ FrameSource combined_frames(const SolvedShapes& shapes, const SeparableTimeline&
           }};
 }
 
-FrameSource solved_frames(const SurfaceSolver& solver, const Positions& reference,
-                          const std::vector<double>& times,
-                          const std::function<Eigen::MatrixXd(double)>& change_at,
-                          const Observer& observer, std::vector<SolveRecord>& records) {
+SolvedFrames solved_frames(const SurfaceSolver& solver, const Positions& reference,
+                           const std::vector<double>& times,
+                           const std::function<Eigen::MatrixXd(double)>& change_at,
+                           const Observer& observer) {
   const auto file = std::make_shared<FrameFile>(reference.rows());
-  records = solve_frames(
+  std::vector<SolveRecord> records = solve_frames(
       solver, times, change_at, observer,
       [&](int, const Positions& displacement) { file->append(reference + displacement); });
-  return {times, [file](std::size_t frame) { return file->read(frame); }};
+  return {{times, [file](std::size_t frame) { return file->read(frame); }}, std::move(records)};
 }
 
 }  // namespace morphbake

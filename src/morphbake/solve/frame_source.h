@@ -20,14 +20,18 @@ struct FrameSource {
 FrameSource combined_frames(const SolvedShapes& shapes, const SeparableTimeline& separable,
                             const Timeline& timeline);
 
+struct SolvedFrames {
+  FrameSource source;
+  std::vector<SolveRecord> records;  ///< one a frame that needed a solve
+};
+
 /// Frames that were solved one by one, kept in a scratch file that vanishes with the source.
 ///
 /// @param reference  #V by 3: what displacements start from
-/// @param records    gets one a frame that needed a solve
 /// @throws BakeError "output.unwritable" when there is no room for the scratch file
-FrameSource solved_frames(const SurfaceSolver& solver, const Positions& reference,
-                          const std::vector<double>& times,
-                          const std::function<Eigen::MatrixXd(double)>& change_at,
-                          const Observer& observer, std::vector<SolveRecord>& records);
+SolvedFrames solved_frames(const SurfaceSolver& solver, const Positions& reference,
+                           const std::vector<double>& times,
+                           const std::function<Eigen::MatrixXd(double)>& change_at,
+                           const Observer& observer);
 
 }  // namespace morphbake

@@ -115,11 +115,11 @@ TEST(SolvedFrames, AreKeptAndReadInAnyOrder) {
   const DisplacementSystem system = sweep.system();
   const Observer nobody;
   const SurfaceSolver solver(system, {}, nobody);
-  std::vector<SolveRecord> records;
   const Positions& rest = sweep.mesh.geometries[0];
-  const FrameSource source = solved_frames(
-      solver, rest, sweep.times, [&](double time) { return sweep.change_at(time); }, nobody,
-      records);
+  const FrameSource source =
+      solved_frames(
+          solver, rest, sweep.times, [&](double time) { return sweep.change_at(time); }, nobody)
+          .source;
   const std::vector<Positions> frames = solve(sweep, system, Solver::Direct).frames;
   for (const std::size_t f : {std::size_t{90}, std::size_t{0}, std::size_t{41}}) {
     EXPECT_LT(largest_distance(source.positions(f), rest + frames[f]), 1e-9);
