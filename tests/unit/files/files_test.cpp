@@ -15,19 +15,19 @@ namespace {
 class Files : public testing::Test {
  protected:
   Files() {
-    fs::remove_all(folder_);
-    fs::create_directories(folder_ / "inner");
+    fs::remove_all(folder);
+    fs::create_directories(folder / "inner");
   }
 
-  ~Files() override { fs::remove_all(folder_); }
+  ~Files() override { fs::remove_all(folder); }
 
   void write(const fs::path& name, const std::string& text) const {
-    std::ofstream(folder_ / name) << text;
+    std::ofstream(folder / name) << text;
   }
 
   std::string code_of_reading(const fs::path& name, std::uintmax_t limit) const {
     try {
-      read_file(folder_ / name, limit);
+      read_file(folder / name, limit);
     } catch (const BakeError& error) {
       return error.problems().front().code;
     }
@@ -35,10 +35,10 @@ class Files : public testing::Test {
   }
 
   std::size_t entries() const {
-    return static_cast<std::size_t>(std::distance(fs::recursive_directory_iterator(folder_), {}));
+    return static_cast<std::size_t>(std::distance(fs::recursive_directory_iterator(folder), {}));
   }
 
-  fs::path folder_ =
+  fs::path folder =
       fs::path(testing::TempDir()) / testing::UnitTest::GetInstance()->current_test_info()->name();
 };
 
@@ -47,27 +47,27 @@ TEST_F(Files, ReadingTellsWhatIsWrong) {
   EXPECT_EQ(code_of_reading("gone", 10), "files.missing");
   EXPECT_EQ(code_of_reading("inner", 10), "files.not-a-file");
   EXPECT_EQ(code_of_reading("big", 4), "files.too-large");
-  EXPECT_EQ(read_file(folder_ / "big", 5), "12345");
+  EXPECT_EQ(read_file(folder / "big", 5), "12345");
 }
 
 TEST_F(Files, NothingLeavesTheFolder) {
-  fs::create_symlink("/etc", folder_ / "link");
+  fs::create_symlink("/etc", folder / "link");
   for (const char* uri :
        {"", "/etc/passwd", "../x", "inner/../../x", "http://x/y", "data:,x", "link/passwd"}) {
-    EXPECT_EQ(inside_folder(folder_, uri), fs::path()) << uri;
+    EXPECT_EQ(inside_folder(folder, uri), fs::path()) << uri;
   }
-  EXPECT_EQ(inside_folder(folder_, "inner/./a.bin"), fs::canonical(folder_) / "inner/a.bin");
-  EXPECT_EQ(inside_folder(folder_, "..a"), fs::canonical(folder_) / "..a");
+  EXPECT_EQ(inside_folder(folder, "inner/./a.bin"), fs::canonical(folder) / "inner/a.bin");
+  EXPECT_EQ(inside_folder(folder, "..a"), fs::canonical(folder) / "..a");
 }
 
 TEST_F(Files, WhatIsNotCommittedIsGone) {
   const std::size_t before = entries();
   {
     PendingOutputs outputs;
-    const fs::path temporary = outputs.stage(folder_ / "new/deep/out.glb", "abc");
+    const fs::path temporary = outputs.stage(folder / "new/deep/out.glb", "abc");
     EXPECT_EQ(temporary.extension(), ".glb");
     EXPECT_EQ(read_file(temporary, 10), "abc");
-    EXPECT_FALSE(fs::exists(folder_ / "new/deep/out.glb"));
+    EXPECT_FALSE(fs::exists(folder / "new/deep/out.glb"));
   }
   EXPECT_EQ(entries(), before);
 }
@@ -75,19 +75,19 @@ TEST_F(Files, WhatIsNotCommittedIsGone) {
 TEST_F(Files, CommitReplacesAtOnce) {
   write("out.txt", "old");
   PendingOutputs outputs;
-  outputs.stage(folder_ / "out.txt", "new");
-  outputs.stage(folder_ / "more/out.txt", "more");
-  EXPECT_EQ(read_file(folder_ / "out.txt", 10), "old");
+  outputs.stage(folder / "out.txt", "new");
+  outputs.stage(folder / "more/out.txt", "more");
+  EXPECT_EQ(read_file(folder / "out.txt", 10), "old");
   outputs.commit();
-  EXPECT_EQ(read_file(folder_ / "out.txt", 10), "new");
-  EXPECT_EQ(read_file(folder_ / "more/out.txt", 10), "more");
+  EXPECT_EQ(read_file(folder / "out.txt", 10), "new");
+  EXPECT_EQ(read_file(folder / "more/out.txt", 10), "more");
 }
 
 TEST_F(Files, UnwritablePlacesAreTold) {
   write("file", "");
   PendingOutputs outputs;
-  EXPECT_THROW(outputs.stage(folder_ / "file/out.glb", "x"), BakeError);
-  EXPECT_THROW(outputs.stage(folder_ / "inner", "x"), BakeError);
+  EXPECT_THROW(outputs.stage(folder / "file/out.glb", "x"), BakeError);
+  EXPECT_THROW(outputs.stage(folder / "inner", "x"), BakeError);
 }
 
 }  // namespace
