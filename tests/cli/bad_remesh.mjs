@@ -9,6 +9,7 @@ import { join } from 'node:path';
 import { sphere, torus, write_gltf } from './meshes.mjs';
 
 const [program, scratch] = process.argv.slice(2);
+const SLOWNESS = 'LSAN_OPTIONS' in process.env ? 5 : 1;  // of the sanitizers
 let failures = 0;
 const wrong = (text) => { console.log(`WRONG: ${text}`); ++failures; };
 
@@ -46,7 +47,7 @@ function refused(name, code, expected, a, b, connectivity) {
   const file = recipe(name, a, b, connectivity);
   const out = join(scratch, name, 'out');
   for (const command of [['validate', file], ['remesh', file, '-o', out], ['bake', file, '--output-dir', out]]) {
-    const run = spawnSync(program, command, { encoding: 'utf8', timeout: 60000 });
+    const run = spawnSync(program, command, { encoding: 'utf8', timeout: SLOWNESS * 60000 });
     if (run.status !== code) wrong(`${name}: ${command[0]}: exit code ${run.status}, not ${code}\n${run.stderr}`);
     const missing = expected.filter((part) => !run.stderr.includes(part));
     if (missing.length) wrong(`${name}: ${command[0]} does not say ${missing.join(' | ')}\n${run.stderr}`);
@@ -61,7 +62,7 @@ function done(name, a, b, connectivity) {
   const file = recipe(name, a, b, connectivity);
   const report = join(scratch, name, 'report.json');
   const command = ['remesh', file, '-o', join(scratch, name, 'out'), '--sheet', 'none', '--report', report];
-  const run = spawnSync(program, command, { encoding: 'utf8', timeout: 120000 });
+  const run = spawnSync(program, command, { encoding: 'utf8', timeout: SLOWNESS * 120000 });
   if (run.status !== 0) wrong(`${name}: exit code ${run.status}\n${run.stderr}`);
   return { text: run.stderr, report: existsSync(report) ? JSON.parse(readFileSync(report, 'utf8')) : { problems: [] } };
 }
@@ -131,7 +132,7 @@ refused('no_room', 4, ['recipe.json#/connectivity/max_vertices: error: 60 landma
 // Vertices that are repeated are welded, those of no triangle passed over; a pole of 5000 neighbours takes no ages.
 const soup = ({ points, faces }) => ({ points: [...faces.flatMap((face) => face.map((v) => points[v])), [50, 50, 50]], faces: faces.map((_, f) => [3 * f, 3 * f + 1, 3 * f + 2]) });
 done('soup', ball(soup), good);
-const poles = spawnSync(program, ['validate', recipe('poles', { mesh: sphere(5000, 2), landmarks: landmarks() }, good)], { encoding: 'utf8', timeout: 60000 });
+const poles = spawnSync(program, ['validate', recipe('poles', { mesh: sphere(5000, 2), landmarks: landmarks() }, good)], { encoding: 'utf8', timeout: SLOWNESS * 60000 });
 if (poles.status !== 4 || !poles.stderr.includes('[correspondence.no-room]')) wrong(`poles: exit code ${poles.status}\n${poles.stderr}`);
 
 // What the limit of vertices left undone is told, on stderr and in the report.
