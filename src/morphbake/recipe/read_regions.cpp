@@ -85,7 +85,7 @@ void read_regions(Reading& reading) {
     check_name_length(reading, region.name, pointer);
     if (json.contains("ball")) {
       region.shape = read_ball(reading, json["ball"], pointer + "/ball");
-    } else {
+    } else if (json.contains("rest_of")) {  // else its name is misspelt, which the schema tells
       region.shape = read_rest_of(reading, json["rest_of"], pointer + "/rest_of");
     }
   }
