@@ -11,7 +11,6 @@
 namespace morphbake {
 namespace {
 
-constexpr std::ptrdiff_t kFewest = 3;     // tips that correspond
 constexpr double kMirrorFits = 0.3;       // of the distance without a mirror
 constexpr double kMirrorMatters = 0.003;  // of the diagonal
 constexpr double kUnlike = 0.28;          // `Alignment::cost` from which pairs are doubtful

@@ -81,7 +81,8 @@ void expect_documented(const Json& schema, const Json& object, const std::string
   const Json required = object.value("required", Json::array());
   for (const auto& [field, node] : object["properties"].items()) {
     const Json& target = referred(schema, node);
-    const std::string where = at + "/" + field;
+    std::string where = at;
+    where.append("/").append(field);
     EXPECT_TRUE(node.contains("description") || target.contains("description")) << where;
     const bool is_required = std::find(required.begin(), required.end(), field) != required.end();
     const bool has_default = node.contains("default") || node.contains("x-default") ||
@@ -94,7 +95,8 @@ TEST(Schemas, EveryFieldHasADescriptionAndADefaultUnlessRequired) {
   for (const std::string& name : names) {
     const Json schema = shipped_schema(name);
     for_each_node(schema, "", [&](const Json& node, const std::string& pointer) {
-      if (node.contains("properties")) expect_documented(schema, node, name + "#" + pointer);
+      if (node.contains("properties"))
+        expect_documented(schema, node, std::string(name).append("#").append(pointer));
     });
   }
 }
