@@ -76,8 +76,8 @@ Facts find_facts(const std::filesystem::path& file) {
   for (std::size_t k = 0; k < mesh.target_names.size(); ++k) {
     facts.targets[k].name = mesh.target_names[k];
   }
-  facts.keys = mesh.key_times.size();
-  facts.duration = mesh.key_times.empty() ? 0 : mesh.key_times.back();
+  facts.keys = mesh.weights.times.size();
+  facts.duration = mesh.weights.times.empty() ? 0 : mesh.weights.times.back();
   return facts;
 }
 

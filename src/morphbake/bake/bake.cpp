@@ -42,9 +42,9 @@ BakeReport bake(const Recipe& asked, const BakeOptions& options, const Observer&
   if (recipe.preview) {
     clock.start("preview");
     for (auto& [output, file] : staged) {
-      output.previews = stage_previews({file, output.file, stem_of(output.file)},
-                                       turntable_of(*recipe.preview, options),
-                                       recipe.preview->formats, observer, outputs);
+      output.previews = stage_previews(
+          {file, output.file, stem_of(output.file), sources.front().geometry.node},
+          turntable_of(*recipe.preview, options), recipe.preview->formats, observer, outputs);
     }
   }
   outputs.commit();

@@ -18,6 +18,9 @@ struct GltfDocument {
   tinygltf::Model model;  ///< the same, typed, with the bytes of all buffers
 };
 
+/// The relative path that a URI names: its percent-encoding removed.
+std::string uri_path(const std::string& uri);
+
 /// @throws BakeError `code` at `pointer` of the glTF's JSON
 [[noreturn]] void fail_at(const GltfDocument& document, const std::string& pointer,
                           const std::string& code, const std::string& message,
