@@ -57,36 +57,39 @@ void cut(const Mesh& mesh, const Solid& solid, std::map<std::string, int>& numbe
     const Part& part = part_at(solid, centre_of(mesh, f));
     const auto front = solid.fronts.find(part.group);
     const Vector facing = front == solid.fronts.end() ? Vector::UnitZ() : front->second;
-    const int group = numbers.try_emplace(part.group, static_cast<int>(numbers.size())).first->second;
-    const int label = 2 * group + (normal_of(mesh, f).dot(facing) > 0);
+    const int group =
+        numbers.try_emplace(part.group, static_cast<int>(numbers.size())).first->second;
     result.fabrics.push_back(part.skin.fabric);
-    result.labels.push_back(part.skin.fabric == Fabric::Gloss ? -1 : label);
+    result.labels.push_back(2 * group + (normal_of(mesh, f).dot(facing) > 0));
   }
 }
 
 /// The triangles of one fabric, their vertices split along the seams.
 Primitive primitive_of(const Mesh& mesh, const Cut& cut, const Unwrapped& flat,
                        const std::pair<Fabric, Material>& made_of) {
-  std::map<std::pair<int, int>, int> index;  // of vertex and chart
+  const bool is_textured = made_of.second.is_textured;
+  std::map<std::pair<int, int>, int> index;        // of vertex and chart
   std::vector<std::pair<int, Eigen::Index>> rows;  // vertex and corner
   std::vector<Eigen::RowVector3i> triangles;
   for (Eigen::Index f = 0; f < mesh.triangles.rows(); ++f) {
     const auto triangle = static_cast<std::size_t>(f);
     if (cut.fabrics[triangle] != made_of.first) continue;
+    const int chart = is_textured ? flat.charts[triangle] : 0;
     Eigen::RowVector3i& corners = triangles.emplace_back();
     for (int k = 0; k < 3; ++k) {
       const int v = mesh.triangles(f, k);
-      const auto [entry, is_new] =
-          index.try_emplace({v, flat.charts[triangle]}, static_cast<int>(rows.size()));
+      const auto [entry, is_new] = index.try_emplace({v, chart}, static_cast<int>(rows.size()));
       if (is_new) rows.emplace_back(v, 3 * f + k);
       corners[k] = entry->second;
     }
   }
   const Rows3d normals = vertex_normals(mesh);
   const auto count = static_cast<Eigen::Index>(rows.size());
-  const bool is_textured = made_of.second.is_textured;
-  Primitive result{made_of.second, Rows3d(count, 3), Rows3d(count, 3),
-                   Rows3d(is_textured ? 0 : count, 3), Rows2d(is_textured ? count : 0, 2),
+  Primitive result{made_of.second,
+                   Rows3d(count, 3),
+                   Rows3d(count, 3),
+                   Rows3d(is_textured ? 0 : count, 3),
+                   Rows2d(is_textured ? count : 0, 2),
                    Rows3i(static_cast<Eigen::Index>(triangles.size()), 3)};
   for (Eigen::Index r = 0; r < count; ++r) {
     const auto [vertex, corner] = rows[static_cast<std::size_t>(r)];

@@ -26,9 +26,8 @@ double noise(const Vector& p, std::uint32_t seed) {
   double sum = 0;
   for (int corner = 0; corner < 8; ++corner) {
     const Eigen::Vector3i step(corner & 1, corner >> 1 & 1, corner >> 2);
-    const Vector weights =
-        step.cast<double>().array() * share.array() +
-        (1 - step.cast<double>().array()) * (1 - share.array());
+    const Vector weights = step.cast<double>().array() * share.array() +
+                           (1 - step.cast<double>().array()) * (1 - share.array());
     sum += weights.prod() * grid_noise(floor.cast<int>() + step, seed);
   }
   return sum;
@@ -51,8 +50,8 @@ double fur_light(const Vector& p) {
 
 /// Rows of stitches, each a slanting loop.
 double wool_light(const Vector& p) {
-  constexpr double row = 0.0075;      // metres
-  constexpr double stitches = 60;     // around
+  constexpr double row = 0.0075;   // metres
+  constexpr double stitches = 60;  // around
   const double around = std::atan2(p.x(), p.z() - 0.035) / (2 * std::numbers::pi) * stitches;
   const double slant = std::abs(around - std::floor(around) - 0.5);
   const double level = p.y() / row + slant;

@@ -15,18 +15,28 @@ struct Coat {
   Skin wool, bobble;
 };
 
-Skin plain(std::uint32_t rgb, Fabric fabric = Fabric::Fur) { return {srgb(rgb), srgb(rgb), fabric}; }
+Skin plain(std::uint32_t rgb, Fabric fabric = Fabric::Fur) {
+  return {srgb(rgb), srgb(rgb), fabric};
+}
 
 Coat fox_coat() {
   const Skin wool{srgb(0x1d8285), srgb(0xf2e3c0), Fabric::Wool};
-  return {plain(0xd9661c), plain(0xf8f0e3), plain(0x38211b), plain(0x4a2a20),
-          wool,            plain(0xf2e3c0, Fabric::Wool)};
+  return {plain(0xd9661c),
+          plain(0xf8f0e3),
+          plain(0x38211b),
+          plain(0x4a2a20),
+          wool,
+          plain(0xf2e3c0, Fabric::Wool)};
 }
 
 Coat fennec_coat() {
   const Skin wool{srgb(0xb23a48), srgb(0xf2e3c0), Fabric::Wool};
-  return {plain(0xe0b678), plain(0xfcf6ea), plain(0xd9a868), plain(0xe9b9a0),
-          wool,            plain(0xf2e3c0, Fabric::Wool)};
+  return {plain(0xe0b678),
+          plain(0xfcf6ea),
+          plain(0xd9a868),
+          plain(0xe9b9a0),
+          wool,
+          plain(0xf2e3c0, Fabric::Wool)};
 }
 
 const Skin black = plain(0x120c0b, Fabric::Gloss);
@@ -49,7 +59,8 @@ void add_torso(Solid& s, const Coat& coat) {
 void add_legs(Solid& s, const Coat& coat) {
   s.group = "hind legs";
   add_pair(s, ball({0.115, 0.115, -0.02}, {0.07, 0.108, 0.112}, {0, 12, 0}), coat.back, {0.03});
-  add_pair(s, ball({0.158, 0.028, 0.075}, {0.043, 0.036, 0.08}, {0, 14, 0}), coat.paws, {0.025, 0.8});
+  add_pair(s, ball({0.158, 0.028, 0.075}, {0.043, 0.036, 0.08}, {0, 14, 0}), coat.paws,
+           {0.025, 0.8});
   s.group = "front legs";
   add_pair(s, limb({0.056, 0.27, 0.07}, {0.053, 0.14, 0.105}, 0.045, 0.036), coat.back, {0.04});
   add_pair(s, limb({0.053, 0.13, 0.107}, {0.053, 0.045, 0.12}, 0.035, 0.034), coat.paws, {0.015});
@@ -86,7 +97,8 @@ void add_smile(Solid& s) {
 void add_head(Solid& s, const Coat& coat) {
   s.group = "head";
   add(s, ball({0, 0.545, 0.04}, {0.135, 0.118, 0.12}), coat.back, {0.02, 0.9});
-  add_pair(s, limb({0.075, 0.51, 0.075}, {0.165, 0.487, 0.045}, 0.055, 0.008), coat.front, {0.03, 0.7});
+  add_pair(s, limb({0.075, 0.51, 0.075}, {0.165, 0.487, 0.045}, 0.055, 0.008), coat.front,
+           {0.03, 0.7});
   s.group = "muzzle";
   add_pair(s, ball({0.03, 0.498, 0.165}, {0.04, 0.036, 0.05}), coat.front, {0.03, 0.7});
   add(s, limb({0, 0.535, 0.12}, {0, 0.516, 0.212}, 0.05, 0.026), coat.back, {0.03, 0.7});
@@ -94,7 +106,7 @@ void add_head(Solid& s, const Coat& coat) {
   s.group = "head";
   add_pair(s, ball({0.062, 0.562, 0.146}, {0.021, 0.027, 0.017}, {0, 20, 0}), black, {0.004, 0.35});
   paint_pair(s, {{0.062, 0.562, 0.146}, 0.0285, black.plain, 0.003});
-  paint_pair(s, {{0.07, 0.575, 0.168}, 0.0085, srgb(0xffffff), 0.002});
+  paint_pair(s, {on_front(s, 0.067, 0.574), 0.0075, srgb(0xffffff), 0.002});
   s.paints.push_back({{0, 0.52, 0.236}, 0.0245, black.plain, 0.002});
   add_smile(s);
 }

@@ -98,8 +98,7 @@ void add_texture(Buffer& buffer, const std::string& name, const std::string& png
   constexpr int linear = 9729;
   constexpr int linear_mipmap_linear = 9987;
   gltf["textures"] = Json::array({{{"sampler", 0}, {"source", 0}}});
-  gltf["samplers"] =
-      Json::array({{{"magFilter", linear}, {"minFilter", linear_mipmap_linear}}});
+  gltf["samplers"] = Json::array({{{"magFilter", linear}, {"minFilter", linear_mipmap_linear}}});
   gltf["images"] = Json::array({{{"name", name},
                                  {"mimeType", "image/png"},
                                  {"bufferView", buffer.append_view(png, Target::Image)}}});
@@ -144,7 +143,14 @@ void write_chunk(std::ostream& out, std::size_t type, const std::string& bytes) 
 }  // namespace
 
 Model painted_model(const Mesh& mesh) {
-  return {{{{"painted"}, mesh.positions, vertex_normals(mesh), mesh.colors, {}, mesh.triangles}}};
+  Model model;
+  Primitive& primitive = model.primitives.emplace_back();
+  primitive.material.name = "painted";
+  primitive.positions = mesh.positions;
+  primitive.normals = vertex_normals(mesh);
+  primitive.colors = mesh.colors;
+  primitive.triangles = mesh.triangles;
+  return model;
 }
 
 void write_glb(const std::filesystem::path& file, const std::string& name, const Model& model) {

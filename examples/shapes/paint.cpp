@@ -78,8 +78,7 @@ class Canvas {
   }
 
   /// Of the edge that is furthest on the wrong side.
-  static double distance_outside(const Eigen::Matrix<double, 3, 2>& corners,
-                                 const Vector& shares) {
+  static double distance_outside(const Eigen::Matrix<double, 3, 2>& corners, const Vector& shares) {
     double furthest = 0;
     for (int k = 0; k < 3; ++k) {
       const double edge = (corners.row((k + 1) % 3) - corners.row((k + 2) % 3)).norm();
@@ -142,8 +141,7 @@ class Canvas {
 
 std::string paint(const Mesh& mesh, const Unwrapped& flat, int size, const Painter& painter) {
   Canvas canvas(size);
-  for (std::size_t f = 0; f < flat.charts.size(); ++f)
-    if (flat.charts[f] >= 0) canvas.lay(mesh, flat, static_cast<int>(f));
+  for (std::size_t f = 0; f < flat.charts.size(); ++f) canvas.lay(mesh, flat, static_cast<int>(f));
   return canvas.png(painter);
 }
 

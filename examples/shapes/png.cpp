@@ -58,7 +58,8 @@ std::string best_filtered(const std::vector<std::uint8_t>& row,
   for (int filter = 0; filter < 5; ++filter) {
     std::string bytes = filtered(row, above, filter);
     long sum = 0;
-    for (std::size_t i = 1; i < bytes.size(); ++i) sum += std::abs(static_cast<signed char>(bytes[i]));
+    for (std::size_t i = 1; i < bytes.size(); ++i)
+      sum += std::abs(static_cast<signed char>(bytes[i]));
     if (sum >= least) continue;
     least = sum;
     best = std::move(bytes);

@@ -60,8 +60,8 @@ struct Solid {
   std::vector<Paint> paints = {};
   std::vector<LandmarkHint> landmarks = {};
   std::function<double(const Vector&)> pattern = {};  // 0 plain .. 1 marked
-  std::optional<double> floor_blend = {};  // flat soles on y = 0, their rim rounded so wide
-  std::optional<double> cut_z = {};        // only the surface in front of this plane is kept
+  std::optional<double> floor_blend = {};     // flat soles on y = 0, their rim rounded so wide
+  std::optional<double> cut_z = {};           // only the surface in front of this plane is kept
   std::map<std::string, Vector> fronts = {};  // which way a group's front looks, if not to +Z
 };
 

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <map>
 #include <numeric>
 #include <stdexcept>
@@ -43,13 +44,11 @@ Neighbours neighbours_of(const Rows3i& triangles) {
 void straighten(const Neighbours& neighbours, std::vector<int>& labels) {
   for (int round = 0; round < 20; ++round)
     for (std::size_t f = 0; f < labels.size(); ++f) {
-      if (labels[f] < 0) continue;
       std::array<int, 3> around;
       for (std::size_t k = 0; k < 3; ++k)
         around[k] = labels[static_cast<std::size_t>(neighbours[f][k])];
       std::sort(around.begin(), around.end());
-      const bool agree = around[0] == around[1] || around[1] == around[2];
-      if (agree && around[1] >= 0) labels[f] = around[1];
+      if (around[0] == around[1] || around[1] == around[2]) labels[f] = around[1];
     }
 }
 
@@ -59,7 +58,7 @@ std::vector<std::vector<int>> pieces_of(const Neighbours& neighbours,
   std::vector<std::vector<int>> pieces;
   std::vector<bool> is_seen(labels.size(), false);
   for (std::size_t seed = 0; seed < labels.size(); ++seed) {
-    if (is_seen[seed] || labels[seed] < 0) continue;
+    if (is_seen[seed]) continue;
     std::vector<int>& piece = pieces.emplace_back(1, static_cast<int>(seed));
     is_seen[seed] = true;
     for (std::size_t i = 0; i < piece.size(); ++i)
@@ -83,12 +82,11 @@ void dissolve_islands(const Neighbours& neighbours, std::vector<int>& labels) {
     for (const int f : piece)
       for (const int n : neighbours[static_cast<std::size_t>(f)]) {
         const int label = labels[static_cast<std::size_t>(n)];
-        if (label >= 0 && label != own) ++borders[label];
+        if (label != own) ++borders[label];
       }
     if (borders.empty()) continue;
-    const auto most = std::max_element(borders.begin(), borders.end(), [](auto& a, auto& b) {
-      return a.second < b.second;
-    });
+    const auto most = std::max_element(borders.begin(), borders.end(),
+                                       [](auto& a, auto& b) { return a.second < b.second; });
     for (const int f : piece) labels[static_cast<std::size_t>(f)] = most->first;
   }
 }
@@ -212,7 +210,7 @@ Unwrapped unwrap(const Mesh& mesh, const std::vector<int>& labels) {
   std::vector<Chart> charts;
   for (const std::vector<int>& piece : pieces_of(neighbours, cut))
     charts.push_back(flattened(mesh, piece));
-  Unwrapped result{std::vector<int>(labels.size(), -1), Rows2d::Zero(3 * mesh.triangles.rows(), 2)};
+  Unwrapped result{std::vector<int>(labels.size()), Rows2d::Zero(3 * mesh.triangles.rows(), 2)};
   pack(charts, result);
   return result;
 }
