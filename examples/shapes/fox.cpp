@@ -130,6 +130,7 @@ void mark_fox(Solid& s) {
   mark(s, "chest", {0, 0.3, 0.2});
   mark(s, "crown", {0, 0.7, 0.04});
   mark(s, "nape", {0, 0.5, -0.1});
+  mark(s, "collar", {0, 0.415, -0.12});
 }
 
 Solid body(const Coat& coat) {
