@@ -21,7 +21,7 @@ struct Texel {
 
 class Canvas {
  public:
-  explicit Canvas(int size) : size_(size), texels_(static_cast<std::size_t>(size * size)) {}
+  explicit Canvas(int size) : size_(size), texels_(index(0, size)) {}
 
   /// Lays a triangle of the surface on the texels that it covers, and around them.
   void lay(const Mesh& mesh, const Unwrapped& flat, int triangle) {
@@ -64,6 +64,11 @@ class Canvas {
   static constexpr double reach = 3;  // texels that paint runs over an edge
   static constexpr int rings = 8;     // texels that its colours spread from there
 
+  std::size_t index(int x, int y) const {
+    return static_cast<std::size_t>(y) * static_cast<std::size_t>(size_) +
+           static_cast<std::size_t>(x);
+  }
+
   static Vector barycentric(const Eigen::Matrix<double, 3, 2>& corners,
                             const Eigen::RowVector2d& p) {
     Eigen::Matrix3d system;
@@ -88,7 +93,7 @@ class Canvas {
   }
 
   void offer(int x, int y, const Texel& texel) {
-    Texel& best = texels_[static_cast<std::size_t>(y * size_ + x)];
+    Texel& best = texels_[index(x, y)];
     const bool both_inside = texel.outside == 0 && best.outside == 0;
     if (both_inside && (texel.at - best.at).norm() > 1e-3)
       throw std::runtime_error("the texture shows two places of the surface at one place");
@@ -112,13 +117,13 @@ class Canvas {
     const std::vector<bool> before = is_painted;
     for (int y = 0; y < size_; ++y)
       for (int x = 0; x < size_; ++x) {
-        const auto i = static_cast<std::size_t>(y * size_ + x);
+        const auto i = index(x, y);
         if (before[i]) continue;
         Vector sum = Vector::Zero();
         int count = 0;
         for (int v = std::max(y - 1, 0); v <= std::min(y + 1, size_ - 1); ++v)
           for (int u = std::max(x - 1, 0); u <= std::min(x + 1, size_ - 1); ++u) {
-            const auto n = static_cast<std::size_t>(v * size_ + u);
+            const auto n = index(u, v);
             if (before[n]) sum += colors[n];
             count += before[n];
           }
