@@ -1,5 +1,5 @@
 // Every form in which glTF may hold a surface is read, morphs into another of the same form, and keeps what it had.
-// Usage: node forms_test.mjs --morphbake PROGRAM --output FOLDER [FORM...]    the baked files are left in FOLDER
+// Usage: node forms_test.mjs --morphbake PROGRAM --output FOLDER [FORM...]    the files are left in FOLDER/baked
 import { mkdirSync, rmSync, writeFileSync } from 'node:fs';
 import path from 'node:path';
 import { FORMS, writeForm } from './forms/forms.mjs';
@@ -27,7 +27,7 @@ function writeRecipe(name, { a, b }, folder) {
 /** The node that a source's `node` or `mesh` means. */
 function subjectOf({ json }, { node, mesh } = {}) {
   if (typeof node === 'number') return node;
-  const named = json.nodes.findIndex((each) => each.name === node);
+  const named = json.nodes.findIndex((each) => node !== undefined && each.name === node);
   const shows = (each) => each.mesh !== undefined && (mesh === undefined || json.meshes[each.mesh].name === mesh);
   return named >= 0 ? named : json.nodes.findIndex(shows);
 }
@@ -82,8 +82,9 @@ async function testForm(name) {
   const files = await writeForm(name, folder);
   const issues = await countIssues(files.a);
   checks.check(errorsIn(issues).length === 0, `${name}: the source itself is not legal: ${errorsIn(issues)}`);
-  bake(morphbake, writeRecipe(name, files, folder), output);
-  const file = path.join(output, `${name}.glb`);
+  const baking = path.join(output, 'baked');
+  bake(morphbake, writeRecipe(name, files, folder), baking);
+  const file = path.join(baking, `${name}.glb`);
   for (const issue of newIssues(issues, await countIssues(file))) checks.check(false, `${name}: ${issue}`);
   const [a, b, baked] = await Promise.all([files.a, files.b, file].map(openPlain));
   const startsThere = FORMS[name].a === undefined;

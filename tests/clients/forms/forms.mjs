@@ -202,7 +202,8 @@ async function severalMeshes(which) {
   gltf.putMesh(document, [{ attributes: gltf.putSurface(document, stand), indices: gltf.putIndices(document, stand.triangles.flat()) }],
     { name: 'plate' });
   gltf.putMesh(document, [ringPrimitive(document, which)], { name: 'ring' });
-  document.json.scenes.push({ name: 'stand alone', nodes: [0] });
+  document.json.nodes.push({ name: 'elsewhere', mesh: 0 });
+  document.json.scenes = [{ name: 'stand alone', nodes: [2] }, { nodes: [0] }];
   document.json.scene = 1;
   return document;
 }
