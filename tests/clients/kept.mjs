@@ -4,12 +4,13 @@ import { pathToFileURL } from 'node:url';
 import { readAccessor } from './reference/glb.mjs';
 import { openPlain } from './reference/plain.mjs';
 
+const FLOAT = 5126;
 const PACKED = ['EXT_meshopt_compression', 'KHR_draco_mesh_compression'];
 
 /**
  * What of the source the output lacks or has changed beyond what a bake in `shared` mode may change: the generator;
  * targets, names, weights and a clip at the end of their lists; zeros for the new targets in what weighs the old ones;
- * buffers joined, images taken in, Draco and meshopt unpacked.
+ * buffers joined, images taken in, Draco and meshopt unpacked, wrong bounds put right.
  *
  * @param node        index of the node that morphs
  * @param startsThere false: the first shape is another than the source's, so its positions and normals may change
@@ -32,6 +33,7 @@ export function compareDocuments(before, after, { node, startsThere = true, clip
   takeAddedTargets(subject);
   const moved = startsThere ? new Set() : allowOtherStart(subject);
   takeTail(subject, new Set([...weighed, ...moved]), before.unpacked);
+  takeRightBounds(subject.before, after, left);
   const kept = { ...subject.before, images: takeImages(before, after, left, lost) };
   for (const json of [kept, left]) forgetAllowed(json);
   differences(kept, left, '', lost);
@@ -166,7 +168,7 @@ function takeTail({ before, after }, changed, unpacked) {
     delete json.bufferViews;
     json.accessors.forEach((accessor, i) => {
       if (accessor.bufferView !== undefined) accessor.bufferView = 'some view';
-      if (unpacked.has(i)) for (const key of ['min', 'max', 'byteOffset']) delete accessor[key];
+      if (unpacked.has(i)) delete accessor.byteOffset;
     });
   }
 }
@@ -182,6 +184,22 @@ function takeOver(from, to, keys) {
 
 const isOnlyOf = (json, view, accessors) =>
   json.accessors.every((accessor, i) => accessor.bufferView !== view || accessors.has(i));
+
+/** Lets bounds that the source tells wrongly be right. */
+function takeRightBounds(before, after, left) {
+  (before.accessors ?? []).forEach((accessor, i) => {
+    const is = left.accessors?.[i];
+    if (!is?.min || !is.max || JSON.stringify([accessor.min, accessor.max]) === JSON.stringify([is.min, is.max])) return;
+    const raw = { ...after.json, accessors: after.json.accessors.map((each) => ({ ...each, normalized: false })) };
+    const values = readAccessor({ ...after, json: raw }, i);
+    const isRight = is.min.length * is.count === values.length && is.min.every((low, k) => {
+      const column = values.filter((_, at) => at % is.min.length === k);
+      const round = is.componentType === FLOAT ? Math.fround : (x) => x;
+      return round(low) === Math.min(...column) && round(is.max[k]) === Math.max(...column);
+    });
+    if (isRight) takeOver(accessor, is, ['min', 'max']);
+  });
+}
 
 /** Images without where they lie. @return those of the source; the output's are changed in `left` */
 function takeImages(before, after, left, lost) {

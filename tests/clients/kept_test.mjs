@@ -65,7 +65,7 @@ const otherThan = (value) => (typeof value === 'number' ? (Math.abs(value) < 1e1
 /** What may differ, or does not count: where bytes lie, and who wrote the file. */
 const isFree = ([a, b, c], before) => a === 'buffers' || (a === 'asset' && b === 'generator') ||
   (a === 'bufferViews' && (before.unpacked.size > 0 || ['buffer', 'byteOffset', 'byteLength'].includes(c))) ||
-  (a === 'accessors' && before.unpacked.has(Number(b)) && ['min', 'max', 'bufferView'].includes(c)) ||
+  (a === 'accessors' && before.unpacked.has(Number(b)) && c === 'bufferView') ||
   (a === 'images' && before.unpacked.size > 0 && c === 'bufferView');
 
 function isFound(before, after, node) {
@@ -139,8 +139,8 @@ function tryAdditions(before, after, node) {
 }
 
 let tried = 0;
-const SOURCES = { 'unknown': 0, 'targets-cubic': 0, 'targets-linear': 0, 'skin': 0, 'cameras-lights': 0, 'several-by-node': 1, 'instanced': 1,
-  'external': 0, 'data-uris': 0, 'draco': 0, 'draco-beside-plain': 0, 'meshopt': 0, 'sparse': 0, 'texture-transform': 0 };
+const SOURCES = { 'unknown': 0, 'targets-cubic': 0, 'skin': 0, 'cameras-lights': 0, 'several-by-node': 1, 'instanced': 1,
+  'external': 0, 'data-uris': 0, 'draco': 0, 'draco-beside-plain': 0, 'meshopt': 0, 'sparse': 0 };
 for (const [name, node] of Object.entries(SOURCES))
   await withFolder(async (folder) => {
     const { a: source } = await writeForm(name, folder);
