@@ -7,7 +7,8 @@ import { countIssues, errorsIn, newIssues } from './issues.mjs';
 import { findLost } from './kept.mjs';
 import { openPlain } from './reference/plain.mjs';
 import { evaluateScene } from './reference/scene.mjs';
-import { at, diagonal, distance } from './reference/vectors.mjs';
+import { diagonal } from './reference/vectors.mjs';
+import { farthest, shapeOf } from './shape.mjs';
 import { bake, readArguments, startChecks } from './support.mjs';
 
 const TOLERANCE = 1e-5;  // fraction of the source's diagonal
@@ -30,20 +31,6 @@ function subjectOf({ json }, { node, mesh } = {}) {
   const named = json.nodes.findIndex((each) => node !== undefined && each.name === node);
   const shows = (each) => each.mesh !== undefined && (mesh === undefined || json.meshes[each.mesh].name === mesh);
   return named >= 0 ? named : json.nodes.findIndex(shows);
-}
-
-/** Corner by corner, primitive after primitive, #C by 3. */
-function shapeOf(scene, node) {
-  const { primitives } = scene.find((each) => each.node === node);
-  return primitives.flatMap(({ positions, corners }) => corners.flatMap((i) => at(positions, i)));
-}
-
-/** The largest distance of corners. */
-function farthest(found, expected) {
-  if (found.length !== expected.length) return Infinity;
-  let far = 0;
-  for (let i = 0; 3 * i < found.length; i++) far = Math.max(far, distance(at(found, i), at(expected, i)));
-  return far;
 }
 
 /** Shapes of the subject at both ends of the new clip, and of all other nodes. */

@@ -1,10 +1,11 @@
 // Every glTF 2.0 file of Debian's assimp-testmodels is baked and kept, or refused for the reason that stands here.
-// Usage: node models_test.mjs --morphbake PROGRAM --output FOLDER [PART-OF-A-NAME...]    the files are left in FOLDER/baked
+// Usage: node models_test.mjs --morphbake PROGRAM --output FOLDER [PART-OF-A-NAME...]    the files are left in FOLDER/baked,
+// those of sources that are not legal in FOLDER/faulty: what was wrong with them still is, so no client need open them
 import { spawnSync } from 'node:child_process';
 import { mkdirSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
 import path from 'node:path';
 import { putIndices, putMesh, putPoints, startDocument, toGlb, UNSIGNED_INT } from './forms/document.mjs';
-import { countIssues, newIssues } from './issues.mjs';
+import { countIssues, errorsIn, newIssues } from './issues.mjs';
 import { findLost } from './kept.mjs';
 import { openPlain } from './reference/plain.mjs';
 import { evaluateScene } from './reference/scene.mjs';
@@ -75,10 +76,10 @@ function unskinned(plain, node) {
   return { ...plain, json };
 }
 
-function writeRecipe(folder, file, sculpt, { node, isAlone }) {
+function writeRecipe(folder, file, sculpt, outputFile, { node, isAlone }) {
   const source = { file: path.relative(folder, file), ...(!isAlone && { node }) };
   const recipe = { version: 1, name: 'model', sources: { model: source, sculpt: path.basename(sculpt) },
-    timeline: { keys: [{ time: 0, state: 'model' }, { time: 1, state: 'sculpt' }] }, outputs: [{ file: 'model.glb', targets: 'tracks' }] };
+    timeline: { keys: [{ time: 0, state: 'model' }, { time: 1, state: 'sculpt' }] }, outputs: [{ file: outputFile, targets: 'tracks' }] };
   const name = path.join(folder, 'recipe.json');
   writeFileSync(name, JSON.stringify(recipe));
   return name;
@@ -107,16 +108,18 @@ function compareEnds(name, source, sculpt, baked, node) {
 async function bakeModel(file, name, choice) {
   const refusal = inspect(file, choice);
   if (refusal) return { refusal };
-  const [folder, baking] = ['sources', 'baked'].map((each) => path.join(output, each, name));
+  const folder = path.join(output, 'sources', name);
+  const baked = `${name.slice(0, name.lastIndexOf('.')).replaceAll('/', '--')}.glb`;
   mkdirSync(folder, { recursive: true });
   const sculpt = path.join(folder, 'sculpt.glb');
   writeSculpt(await openPlain(file), choice.node, sculpt);
+  const baking = path.join(output, errorsIn(await countIssues(file)).length ? 'faulty' : 'baked');
   try {
-    bake(morphbake, writeRecipe(folder, file, sculpt, choice), baking);
+    bake(morphbake, writeRecipe(folder, file, sculpt, baked, choice), baking);
   } catch (error) {
     return { refusal: error.message };
   }
-  return { sculpt, baked: path.join(baking, 'model.glb') };
+  return { sculpt, baked: path.join(baking, baked) };
 }
 
 async function compareModel(file, name, choice, { sculpt, baked }) {

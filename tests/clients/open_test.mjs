@@ -26,7 +26,7 @@ function expectFile(plain) {
   const shown = nodesShown(json);
   const places = evaluateScene(plain, animation < 0 ? {} : { animation, time: end }).filter(({ node }) => shown.has(node))
     .flatMap(({ node, mesh, primitives }) => primitives.map(({ positions, corners }, primitive) => ({
-      node, mesh, primitive, positions, corners, vertices: positions.length / 3,
+      node, mesh, primitive, positions, corners, vertices: positions.length / 3, isSkinned: json.nodes[node].skin !== undefined,
       targets: json.meshes[mesh].primitives[primitive].targets?.length ?? 0 })));
   return { end, places, clips: animation + 1 };
 }
@@ -48,7 +48,8 @@ function compare(file, expected, found) {
   check(found.places.length === expected.places.length, `${found.places.length} primitives shown, expected ${expected.places.length}`);
   let far = 0;
   for (const place of expected.places) {
-    const same = found.places.find((each) => nameOf({ ...each, node: each.node ?? place.node }) === nameOf(place));
+    // Babylon hangs a skinned mesh elsewhere than at its node.
+    const same = found.places.find((each) => nameOf(place.isSkinned ? { ...each, node: place.node } : each) === nameOf(place));
     if (!check(same, `${nameOf(place)} is not shown`)) continue;
     check(same.vertices === place.vertices, `${nameOf(place)}: ${same.vertices} vertices, expected ${place.vertices}`);
     check(same.targets === place.targets, `${nameOf(place)}: ${same.targets} targets, expected ${place.targets}`);

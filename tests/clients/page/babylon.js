@@ -11,7 +11,6 @@ function originOf(object, pattern) {
   return object?.parent ? originOf(object.parent, pattern) : undefined;
 }
 
-/** Babylon puts a skinned mesh beside its node: `node` is then undefined. */
 function describeMesh(mesh) {
   const [index, primitive] = originOf(mesh.sourceMesh ?? mesh, /^\/meshes\/(\d+)\/primitives\/(\d+)$/);
   return { node: originOf(mesh, /^\/nodes\/(\d+)$/)?.[0], mesh: index, primitive,
