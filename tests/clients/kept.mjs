@@ -30,6 +30,7 @@ export function compareDocuments(before, after, { node, startsThere = true, clip
   const subject = { before: structuredClone(before.json), after: left, mesh, node, lost };
   const weighed = unpadWeights({ before, after }, subject);
   takeAddedClips(subject, clips);
+  takeWeightSamplers(subject);
   takeAddedTargets(subject);
   const moved = startsThere ? new Set() : allowOtherStart(subject);
   takeTail(subject, new Set([...weighed, ...moved]), before.unpacked);
@@ -64,27 +65,56 @@ function cut(object, key, count, isKept) {
 
 const targetCount = (json, mesh) => json.meshes?.[mesh]?.primitives?.[0]?.targets?.length ?? 0;
 
-/** Weights of the old targets in old animations. @return the accessors that hold them in the source */
+/** The channels of the source's animations that weigh the mesh's targets: {a, c, sampler}. */
+const weightChannels = (json, mesh) => (json.animations ?? []).flatMap(({ channels }, a) => channels.flatMap(({ sampler, target }, c) =>
+  (target.path === 'weights' && json.nodes[target.node]?.mesh === mesh ? [{ a, c, sampler }] : [])));
+
+/** Compares weights of the old targets in old animations. @return the accessors that nothing else reads */
 function unpadWeights({ before, after }, { mesh, lost }) {
   const [old, all] = [before, after].map((plain) => targetCount(plain.json, mesh));
-  const weighed = new Set();
-  (before.json.animations ?? []).forEach((animation, a) => animation.channels.forEach(({ sampler, target }, c) => {
-    if (target.path !== 'weights' || before.json.nodes[target.node]?.mesh !== mesh) return;
-    const { output } = animation.samplers[sampler];
-    const now = after.json.animations?.[a]?.samplers?.[sampler]?.output;
+  const weights = weightChannels(before.json, mesh);
+  for (const { a, c, sampler } of weights) {
+    const { output } = before.json.animations[a].samplers[sampler];
+    const { channels, samplers } = after.json.animations?.[a] ?? {};
+    const now = samplers?.[channels?.[c]?.sampler]?.output;
     const at = `/animations/${a}/channels/${c}`;
-    weighed.add(output);
-    if (after.json.accessors?.[now] === undefined) return lost.push(`${at}: has no output`);
-    const [was, is] = [readAccessor(before, output), readAccessor(after, now)];
-    const rows = was.length / old;
-    if (is.length !== rows * all) return lost.push(`${at}: ${is.length} weights, expected ${rows} x ${all}`);
-    for (let i = 0; i < is.length; i++) {
-      const [row, k] = [Math.floor(i / all), i % all];
-      const expected = k < old ? was[row * old + k] : 0;
-      if (is[i] !== expected) return lost.push(`${at}: weight ${k} of row ${row} is ${is[i]}, expected ${expected}`);
-    }
-  }));
-  return weighed;
+    if (after.json.accessors?.[now] === undefined) lost.push(`${at}: has no output`);
+    else comparePadded(readAccessor(before, output), readAccessor(after, now), old, all, at, lost);
+  }
+  const others = structuredClone(before.json);
+  (others.animations ?? []).forEach((animation, a) => {
+    animation.samplers = animation.samplers.map((sampler, s) => (isOfWeightsOnly(before.json, weights, a, s) ? {} : sampler));
+  });
+  const used = usedAccessors(others);
+  return new Set(weights.map(({ a, sampler }) => before.json.animations[a].samplers[sampler].output).filter((output) => !used.has(output)));
+}
+
+const isOfWeightsOnly = (json, weights, a, s) => json.animations[a].channels.every(({ sampler }, c) =>
+  sampler !== s || weights.some((each) => each.a === a && each.c === c));
+
+/** As float32, since weights of bytes may have become that. */
+function comparePadded(was, is, old, all, at, lost) {
+  if (is.length * old !== was.length * all) return lost.push(`${at}: ${is.length} weights of ${all} targets, were ${was.length} of ${old}`);
+  for (let i = 0; i < is.length; i++) {
+    const [row, k] = [Math.floor(i / all), i % all];
+    const expected = k < old ? was[row * old + k] : 0;
+    if (Math.fround(is[i]) !== Math.fround(expected)) return lost.push(`${at}: weight ${k} of row ${row} is ${is[i]}, expected ${expected}`);
+  }
+}
+
+/** Lets samplers of weights have another output, or be new ones where others read them too. */
+function takeWeightSamplers({ before, after, mesh, lost }) {
+  const weights = weightChannels(before, mesh);
+  for (const { a, c, sampler } of weights) {
+    const { channels, samplers } = after.animations?.[a] ?? {};
+    const [was, is] = [before.animations[a].samplers[sampler], samplers?.[channels?.[c]?.sampler]];
+    if (is === null || typeof is !== 'object') continue;
+    if (channels[c].sampler !== sampler && channels[c].sampler >= before.animations[a].samplers.length) {
+      differences({ ...was, output: 0 }, { ...is, output: 0 }, `/animations/${a}/samplers/${channels[c].sampler}`, lost);
+      channels[c].sampler = sampler;
+    } else if (isOfWeightsOnly(before, weights, a, sampler)) takeOver(was, is, ['output']);
+  }
+  for (const { a } of weights) if (after.animations?.[a]?.samplers) cut(after.animations[a], 'samplers', before.animations[a].samplers.length, true);
 }
 
 function takeAddedClips({ before, after, node, lost }, clips) {
@@ -150,7 +180,7 @@ function usedAccessors({ meshes = [], animations = [], skins = [] }) {
   ]);
 }
 
-/** Cuts accessors and views after the source's, and lets `changed` accessors and the weights' samplers differ. */
+/** Cuts accessors and views after the source's, and lets `changed` accessors differ. */
 function takeTail({ before, after }, changed, unpacked) {
   cut(after, 'accessors', before.accessors?.length ?? 0, before.accessors);
   cut(after, 'bufferViews', before.bufferViews?.length ?? 0, before.bufferViews);
@@ -159,9 +189,6 @@ function takeTail({ before, after }, changed, unpacked) {
     takeOver(before.accessors[i], after.accessors?.[i], ['bufferView', 'byteOffset', 'componentType', 'normalized', 'count', 'min', 'max', 'sparse']);
     if (view !== undefined && isOnlyOf(before, view, changed)) takeOver(before.bufferViews[view], after.bufferViews?.[view], ['byteLength', 'byteStride']);
   }
-  (before.animations ?? []).forEach(({ samplers }, a) => samplers.forEach(({ output }, s) => {
-    if (changed.has(output) && after.animations?.[a]?.samplers?.[s]?.output !== undefined) after.animations[a].samplers[s].output = output;
-  }));
   if (unpacked.size === 0) return;
   // Draco's own views are gone, so the others may have moved up: accessors are compared by value, views not at all.
   for (const json of [before, after]) {

@@ -41,16 +41,20 @@ function addTarget(document, primitive) {
   primitive.targets = [...(primitive.targets ?? []), target];
 }
 
+/** In place where only the mesh's channels read the weights, else by a sampler of their own. */
 function padWeights(document, plain, mesh, old) {
-  for (const { channels, samplers } of document.json.animations ?? [])
-    for (const { sampler, target } of channels) {
-      if (target.path !== 'weights' || plain.json.nodes[target.node].mesh !== mesh) continue;
+  for (const { channels, samplers } of document.json.animations ?? []) {
+    const isOurs = ({ target }) => target.path === 'weights' && plain.json.nodes[target.node].mesh === mesh;
+    for (const sampler of new Set(channels.filter(isOurs).map((channel) => channel.sampler))) {
       const { output } = samplers[sampler];
       const rows = readAccessor(plain, output);
       const padded = Array.from({ length: rows.length / old }, (_, i) => [...rows.subarray(i * old, (i + 1) * old), 0]).flat();
-      putAccessor(document, padded.map((w) => [w]), FLOAT);
-      document.json.accessors[output] = document.json.accessors.pop();
+      const index = putAccessor(document, padded.map((w) => [w]), FLOAT);
+      const readers = channels.filter((channel) => channel.sampler === sampler);
+      if (readers.every(isOurs)) document.json.accessors[output] = document.json.accessors.pop();
+      else for (const channel of readers.filter(isOurs)) channel.sampler = samplers.push({ ...samplers[sampler], output: index }) - 1;
     }
+  }
 }
 
 /** Every place in a JSON value, as a list of keys. */
@@ -139,7 +143,8 @@ function tryAdditions(before, after, node) {
 }
 
 let tried = 0;
-const SOURCES = { 'unknown': 0, 'targets-cubic': 0, 'skin': 0, 'cameras-lights': 0, 'several-by-node': 1, 'instanced': 1,
+const SOURCES = { 'unknown': 0, 'targets-cubic': 0, 'targets-instanced': 0, 'targets-shared-sampler': 1,
+  'skin': 0, 'cameras-lights': 0, 'several-by-node': 1, 'instanced': 1,
   'external': 0, 'data-uris': 0, 'draco': 0, 'draco-beside-plain': 0, 'meshopt': 0, 'sparse': 0 };
 for (const [name, node] of Object.entries(SOURCES))
   await withFolder(async (folder) => {

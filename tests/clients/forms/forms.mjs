@@ -272,6 +272,37 @@ const animatedTargets = (interpolation, values, node = {}) => async (which) => {
 const LINEAR_WEIGHTS = [0, 0, 1, 0, 0.25, 0.5];
 const CUBIC_WEIGHTS = [0, 0, 0, 0, 0.5, 0, 0, 0.1, 1, 0, 0, 0.2, 0, 0, 0.25, 0.5, 0, 0];
 
+/** Weights as bytes, for two nodes of one mesh by one sampler. */
+async function instancedTargets(which) {
+  const document = gltf.startDocument([{ ...SUBJECT }, { name: 'twin', mesh: 0, translation: [4, 0, 0], weights: [0, 1] }]);
+  document.json.scenes[0].nodes = [0, 1];
+  gltf.putMesh(document, [putTargets(document, ringPrimitive(document, which), which)], { weights: [0, 0] });
+  const rows = LINEAR_WEIGHTS.map((w) => [Math.round(255 * w)]);
+  document.json.animations = [{ channels: [0, 1].map((node) => ({ sampler: 0, target: { node, path: 'weights' } })),
+    samplers: [{ input: gltf.putTimes(document, [0, 0.5, 2]), output: gltf.putAccessor(document, rows, gltf.UNSIGNED_BYTE, { normalized: true }) }] }];
+  return document;
+}
+
+/** Two meshes whose weights one sampler moves: what is padded for one must not be for the other. */
+async function sharedSampler(which) {
+  const document = gltf.startDocument([{ name: 'other', mesh: 0, translation: [4, 0, 0] }, { ...SUBJECT, mesh: 1 }]);
+  document.json.scenes[0].nodes = [0, 1];
+  for (const shape of ['a', which]) gltf.putMesh(document, [putTargets(document, ringPrimitive(document, shape), shape)], { weights: [0, 0] });
+  animate(document, 'both', 1, 'weights', [0, 0.5, 2], LINEAR_WEIGHTS);
+  document.json.animations[0].channels.push({ sampler: 0, target: { node: 0, path: 'weights' } });
+  return document;
+}
+
+/** Two primitives with targets. */
+async function targetsOfPieces(which) {
+  const document = await pieces(which);
+  document.json.meshes[0].primitives.forEach((primitive, part) => {
+    const { points } = pieceOf(ring(which), part, 2);
+    primitive.targets = [{ POSITION: gltf.putPoints(document, points.map(([x]) => [0, 0, Math.fround(0.2 * x)])) }];
+  });
+  return document;
+}
+
 const stillTargets = (which) => oneMesh((document) => putTargets(document, ringPrimitive(document, which), which, { zeros: true }))(which);
 
 const namedTargets = (which) => oneMesh((document) => putTargets(document, ringPrimitive(document, which), which), {},
@@ -453,6 +484,9 @@ export const FORMS = {
   'targets-linear': { make: single(animatedTargets('LINEAR', LINEAR_WEIGHTS)) },
   'targets-step': { make: single(animatedTargets('STEP', LINEAR_WEIGHTS)) },
   'targets-cubic': { make: single(animatedTargets('CUBICSPLINE', CUBIC_WEIGHTS, { weights: [0, 0] })) },
+  'targets-instanced': { make: single(instancedTargets), select: { node: 'subject' } },
+  'targets-shared-sampler': { make: single(sharedSampler), select: { node: 'subject' } },
+  'targets-primitives': { make: single(targetsOfPieces) },
   'targets-zeros': { make: single(stillTargets) },
   'from-target': { make: single(namedTargets), a: { target: 'wide' }, b: { target: 1 },
     moments: { a: { weights: [1, 0] }, b: { weights: [0, 1] } } },
