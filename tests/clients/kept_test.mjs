@@ -66,10 +66,11 @@ function placesOf(value, at = []) {
 const otherThan = (value) => (typeof value === 'number' ? (Math.abs(value) < 1e15 ? value + 1 : value / 2) : typeof value === 'string' ? `${value}x`
   : typeof value === 'boolean' ? !value : 'another');
 
-/** What may differ, or does not count: where bytes lie, and who wrote the file. */
-const isFree = ([a, b, c], before) => a === 'buffers' || (a === 'asset' && b === 'generator') ||
+/** What may differ, or does not count: where bytes lie, weights that are no longer bytes, and who wrote the file. */
+const isFree = ([a, b, c], before, after) => a === 'buffers' || (a === 'asset' && b === 'generator') ||
   (a === 'bufferViews' && (before.unpacked.size > 0 || ['buffer', 'byteOffset', 'byteLength'].includes(c))) ||
   (a === 'accessors' && before.unpacked.has(Number(b)) && c === 'bufferView') ||
+  (a === 'accessors' && c === 'normalized' && before.json.accessors[b].componentType !== after.json.accessors[b].componentType) ||
   (a === 'images' && before.unpacked.size > 0 && c === 'bufferView');
 
 function isFound(before, after, node) {
@@ -88,7 +89,7 @@ function withChange(after, change) {
 
 function tryPlaces(name, before, after, node) {
   let tried = 0;
-  for (const place of placesOf(before.json).filter((each) => !isFree(each, before))) {
+  for (const place of placesOf(before.json).filter((each) => !isFree(each, before, after))) {
     const keys = place.slice(0, -1);
     const key = place.at(-1);
     const parentOf = (json) => keys.reduce((value, step) => value[step], json);
