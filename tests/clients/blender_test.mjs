@@ -40,7 +40,8 @@ function compare(file, plain, found) {
     const longest = Math.max(...mesh.moves);
     const isAlike = ({ vertices, moves }) => vertices === mesh.vertices && moves.length === mesh.moves.length &&
       moves.every((move, k) => Math.abs(move - mesh.moves[k]) <= TOLERANCE * longest);
-    check(meshes.some(isAlike), `no mesh of Blender's has ${mesh.vertices} vertices and moves by ${mesh.moves}; ${JSON.stringify(meshes)}`);
+    check(meshes.some(isAlike),
+      `no mesh of Blender's has ${mesh.vertices} vertices and moves by ${mesh.moves}; ${JSON.stringify(meshes)}`);
   }
   const clips = plain.json.animations?.length ?? 0;
   check(found.actions >= clips, `Blender has ${found.actions} actions, expected ${clips} at least`);
@@ -50,8 +51,8 @@ function compare(file, plain, found) {
 async function openAll(files) {
   return withFolder((folder) => {
     const result = path.join(folder, 'found.json');
-    const { error, stdout, stderr } = spawnSync('blender', ['--background', '--factory-startup', '--python', SCRIPT, '--', result, ...files],
-      { encoding: 'utf8', maxBuffer: 1 << 28 });
+    const { error, stdout, stderr } = spawnSync('blender',
+      ['--background', '--factory-startup', '--python', SCRIPT, '--', result, ...files], { encoding: 'utf8', maxBuffer: 1 << 28 });
     if (error?.code === 'ENOENT') skip('blender is not installed (apt-get install blender python3-numpy)');
     try {
       return JSON.parse(readFileSync(result, 'utf8'));

@@ -49,7 +49,9 @@ function checkSelfContained({ written }) {
   const found = [];
   if ((written.buffers ?? []).length > 1) found.push('/buffers: more than one');
   for (const list of ['buffers', 'images'])
-    (written[list] ?? []).forEach(({ uri }, i) => { if (uri !== undefined) found.push(`/${list}/${i}/uri: outside the file`); });
+    (written[list] ?? []).forEach(({ uri }, i) => {
+      if (uri !== undefined) found.push(`/${list}/${i}/uri: outside the file`);
+    });
   const text = JSON.stringify(written);
   for (const name of PACKED) if (text.includes(`"${name}"`)) found.push(`${name} is still there`);
   return found;
@@ -66,8 +68,9 @@ function cut(object, key, count, isKept) {
 const targetCount = (json, mesh) => json.meshes?.[mesh]?.primitives?.[0]?.targets?.length ?? 0;
 
 /** The channels of the source's animations that weigh the mesh's targets: {a, c, sampler}. */
-const weightChannels = (json, mesh) => (json.animations ?? []).flatMap(({ channels }, a) => channels.flatMap(({ sampler, target }, c) =>
-  (target.path === 'weights' && json.nodes[target.node]?.mesh === mesh ? [{ a, c, sampler }] : [])));
+const weightChannels = (json, mesh) => (json.animations ?? []).flatMap(({ channels }, a) =>
+  channels.flatMap(({ sampler, target }, c) =>
+    (target.path === 'weights' && json.nodes[target.node]?.mesh === mesh ? [{ a, c, sampler }] : [])));
 
 /** Compares weights of the old targets in old animations. @return the accessors that nothing else reads */
 function unpadWeights({ before, after }, { mesh, lost }) {
@@ -86,7 +89,8 @@ function unpadWeights({ before, after }, { mesh, lost }) {
     animation.samplers = animation.samplers.map((sampler, s) => (isOfWeightsOnly(before.json, weights, a, s) ? {} : sampler));
   });
   const used = usedAccessors(others);
-  return new Set(weights.map(({ a, sampler }) => before.json.animations[a].samplers[sampler].output).filter((output) => !used.has(output)));
+  const outputs = weights.map(({ a, sampler }) => before.json.animations[a].samplers[sampler].output);
+  return new Set(outputs.filter((output) => !used.has(output)));
 }
 
 const isOfWeightsOnly = (json, weights, a, s) => json.animations[a].channels.every(({ sampler }, c) =>
@@ -94,11 +98,13 @@ const isOfWeightsOnly = (json, weights, a, s) => json.animations[a].channels.eve
 
 /** As float32, since weights of bytes may have become that. */
 function comparePadded(was, is, old, all, at, lost) {
-  if (is.length * old !== was.length * all) return lost.push(`${at}: ${is.length} weights of ${all} targets, were ${was.length} of ${old}`);
+  if (is.length * old !== was.length * all)
+    return lost.push(`${at}: ${is.length} weights of ${all} targets, were ${was.length} of ${old}`);
   for (let i = 0; i < is.length; i++) {
     const [row, k] = [Math.floor(i / all), i % all];
     const expected = k < old ? was[row * old + k] : 0;
-    if (Math.fround(is[i]) !== Math.fround(expected)) return lost.push(`${at}: weight ${k} of row ${row} is ${is[i]}, expected ${expected}`);
+    if (Math.fround(is[i]) !== Math.fround(expected))
+      return lost.push(`${at}: weight ${k} of row ${row} is ${is[i]}, expected ${expected}`);
   }
 }
 
@@ -114,7 +120,8 @@ function takeWeightSamplers({ before, after, mesh, lost }) {
       channels[c].sampler = sampler;
     } else if (isOfWeightsOnly(before, weights, a, sampler)) takeOver(was, is, ['output']);
   }
-  for (const { a } of weights) if (after.animations?.[a]?.samplers) cut(after.animations[a], 'samplers', before.animations[a].samplers.length, true);
+  for (const { a } of weights)
+    if (after.animations?.[a]) cut(after.animations[a], 'samplers', before.animations[a].samplers.length, true);
 }
 
 function takeAddedClips({ before, after, node, lost }, clips) {
@@ -123,7 +130,8 @@ function takeAddedClips({ before, after, node, lost }, clips) {
   if (added.length !== clips) lost.push(`/animations: ${added.length} added, expected ${clips}`);
   for (const { channels } of added)
     for (const { target } of channels)
-      if (target.node !== node || target.path !== 'weights') lost.push(`the new animation moves ${target.path} of node ${target.node}`);
+      if (target.node !== node || target.path !== 'weights')
+        lost.push(`the new animation moves ${target.path} of node ${target.node}`);
 }
 
 /** Cuts what was added to the mesh and to the nodes that show it. */
@@ -141,7 +149,8 @@ function takeAddedTargets({ before, after, mesh, lost }) {
   before.nodes.forEach((node, i) => {
     if (node.mesh !== mesh || !after.nodes?.[i]) return;
     const tail = cut(after.nodes[i], 'weights', old, node.weights);
-    if (tail.some((w) => w !== 0) || (node.weights && tail.length !== all - old)) lost.push(`/nodes/${i}/weights: ${tail} added`);
+    if (tail.some((w) => w !== 0) || (node.weights && tail.length !== all - old))
+      lost.push(`/nodes/${i}/weights: ${tail} added`);
   });
 }
 
@@ -174,7 +183,8 @@ function allowOtherStart({ before, after, mesh }) {
 function usedAccessors({ meshes = [], animations = [], skins = [] }) {
   const primitives = meshes.flatMap((mesh) => mesh.primitives);
   return new Set([
-    ...primitives.flatMap(({ attributes, indices, targets = [] }) => [indices, ...[attributes, ...targets].flatMap(Object.values)]),
+    ...primitives.flatMap(({ attributes, indices, targets = [] }) =>
+      [indices, ...[attributes, ...targets].flatMap(Object.values)]),
     ...animations.flatMap(({ samplers }) => samplers.flatMap(({ input, output }) => [input, output])),
     ...skins.map(({ inverseBindMatrices }) => inverseBindMatrices),
   ]);
@@ -186,8 +196,10 @@ function takeTail({ before, after }, changed, unpacked) {
   cut(after, 'bufferViews', before.bufferViews?.length ?? 0, before.bufferViews);
   for (const i of changed) {
     const { bufferView: view } = before.accessors[i];
-    takeOver(before.accessors[i], after.accessors?.[i], ['bufferView', 'byteOffset', 'componentType', 'normalized', 'count', 'min', 'max', 'sparse']);
-    if (view !== undefined && isOnlyOf(before, view, changed)) takeOver(before.bufferViews[view], after.bufferViews?.[view], ['byteLength', 'byteStride']);
+    takeOver(before.accessors[i], after.accessors?.[i],
+      ['bufferView', 'byteOffset', 'componentType', 'normalized', 'count', 'min', 'max', 'sparse']);
+    if (view !== undefined && isOnlyOf(before, view, changed))
+      takeOver(before.bufferViews[view], after.bufferViews?.[view], ['byteLength', 'byteStride']);
   }
   if (unpacked.size === 0) return;
   // Draco's own views are gone, so the others may have moved up: accessors are compared by value, views not at all.
@@ -277,7 +289,8 @@ function compareAccessors(before, after, changed, lost) {
     if (changed.has(i) || !after.json.accessors?.[i]) return;
     const [was, is] = [readAccessor(before, i), readAccessor(after, i)];
     const first = was.findIndex((value, k) => value !== is[k] && !(Number.isNaN(value) && Number.isNaN(is[k])));
-    if (was.length !== is.length || first >= 0) lost.push(`/accessors/${i}: value ${first} is ${is[first]}, was ${was[first]}`);
+    if (was.length !== is.length || first >= 0)
+      lost.push(`/accessors/${i}: value ${first} is ${is[first]}, was ${was[first]}`);
   });
 }
 
@@ -288,7 +301,8 @@ function viewBytes({ json, bin }, i) {
 
 function compareViews(before, after, changed, lost) {
   (before.json.bufferViews ?? []).forEach((_, i) => {
-    const isFree = [...changed].some((accessor) => before.json.accessors[accessor]?.bufferView === i) && isOnlyOf(before.json, i, changed);
+    const isFree = isOnlyOf(before.json, i, changed) &&
+      [...changed].some((accessor) => before.json.accessors[accessor]?.bufferView === i);
     if (isFree || !after.json.bufferViews?.[i]) return;
     if (!viewBytes(before, i).equals(viewBytes(after, i))) lost.push(`/bufferViews/${i}: other bytes`);
   });

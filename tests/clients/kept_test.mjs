@@ -29,7 +29,8 @@ function bakeByHand(plain, node) {
   mesh.extras = { ...mesh.extras, targetNames: [...names, 'added'] };
   for (const each of json.nodes) if (each.mesh === json.nodes[node].mesh) each.weights?.push(0);
   const row = (w) => [...new Array(old).fill(0), w];
-  json.animations = [...(json.animations ?? []), { name: 'baked', channels: [{ sampler: 0, target: { node, path: 'weights' } }],
+  json.animations = [...(json.animations ?? []), { name: 'baked',
+    channels: [{ sampler: 0, target: { node, path: 'weights' } }],
     samplers: [{ input: putTimes(document, [0, 1]), output: putNumbers(document, [...row(0), ...row(1)]) }] }];
   json.asset.generator = 'a hand';
   return toGlb(document);
@@ -63,14 +64,18 @@ function placesOf(value, at = []) {
   return Object.keys(value).flatMap((key) => [[...at, key], ...placesOf(value[key], [...at, key])]);
 }
 
-const otherThan = (value) => (typeof value === 'number' ? (Math.abs(value) < 1e15 ? value + 1 : value / 2) : typeof value === 'string' ? `${value}x`
-  : typeof value === 'boolean' ? !value : 'another');
+function otherThan(value) {
+  if (typeof value === 'number') return Math.abs(value) < 1e15 ? value + 1 : value / 2;
+  if (typeof value === 'string') return `${value}x`;
+  return typeof value === 'boolean' ? !value : 'another';
+}
 
 /** What may differ, or does not count: where bytes lie, weights that are no longer bytes, and who wrote the file. */
 const isFree = ([a, b, c], before, after) => a === 'buffers' || (a === 'asset' && b === 'generator') ||
   (a === 'bufferViews' && (before.unpacked.size > 0 || ['buffer', 'byteOffset', 'byteLength'].includes(c))) ||
   (a === 'accessors' && before.unpacked.has(Number(b)) && c === 'bufferView') ||
-  (a === 'accessors' && c === 'normalized' && before.json.accessors[b].componentType !== after.json.accessors[b].componentType) ||
+  (a === 'accessors' && c === 'normalized' &&
+    before.json.accessors[b].componentType !== after.json.accessors[b].componentType) ||
   (a === 'images' && before.unpacked.size > 0 && c === 'bufferView');
 
 function isFound(before, after, node) {
@@ -121,7 +126,10 @@ function tryBytes(name, before, after, node) {
 }
 
 const ADDED = {
-  'a weight that is not zero': (json, plain) => { plain.bin[plain.json.bufferViews[json.accessors[json.animations[0].samplers[0].output].bufferView].byteOffset + 10] = 0x40; },
+  'a weight that is not zero': (json, plain) => {
+    const { bufferView } = json.accessors[json.animations[0].samplers[0].output];
+    plain.bin[json.bufferViews[bufferView].byteOffset + 10] = 0x40;
+  },
   'a clip that moves a node': (json) => { json.animations.at(-1).channels[0].target.path = 'translation'; },
   'no clip': (json) => { json.animations.pop(); },
   'an old target gone': (json) => { json.meshes[0].primitives[0].targets.shift(); },

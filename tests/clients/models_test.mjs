@@ -79,7 +79,8 @@ function unskinned(plain, node) {
 function writeRecipe(folder, file, sculpt, outputFile, { node, isAlone }) {
   const source = { file: path.relative(folder, file), ...(!isAlone && { node }) };
   const recipe = { version: 1, name: 'model', sources: { model: source, sculpt: path.basename(sculpt) },
-    timeline: { keys: [{ time: 0, state: 'model' }, { time: 1, state: 'sculpt' }] }, outputs: [{ file: outputFile, targets: 'tracks' }] };
+    timeline: { keys: [{ time: 0, state: 'model' }, { time: 1, state: 'sculpt' }] },
+    outputs: [{ file: outputFile, targets: 'tracks' }] };
   const name = path.join(folder, 'recipe.json');
   writeFileSync(name, JSON.stringify(recipe));
   return name;
@@ -87,14 +88,15 @@ function writeRecipe(folder, file, sculpt, outputFile, { node, isAlone }) {
 
 /** Why `inspect` refuses the file, or null. */
 function inspect(file, { node, isAlone }) {
-  const { status, stderr } = spawnSync(morphbake, ['inspect', file, ...(isAlone ? [] : ['--node', String(node)])], { encoding: 'utf8' });
+  const words = ['inspect', file, ...(isAlone ? [] : ['--node', String(node)])];
+  const { status, stderr } = spawnSync(morphbake, words, { encoding: 'utf8' });
   return status === 0 ? null : stderr.trim();
 }
 
 /** Ends of the new clip, in the space in which the mesh morphs. */
 function compareEnds(name, source, sculpt, baked, node) {
-  const shape = (plain, moment, index) => evaluateScene(unskinned(plain, index), moment).find((each) => each.node === index).primitives
-    .map(({ positions, corners }) => corners.map((i) => at(positions, i)));
+  const shape = (plain, moment, index) => evaluateScene(unskinned(plain, index), moment)
+    .find((each) => each.node === index).primitives.map(({ positions, corners }) => corners.map((i) => at(positions, i)));
   const animation = baked.json.animations.length - 1;
   const scale = diagonal(shape(source, {}, node).flat(2));
   for (const [time, expected] of [[0, shape(source, {}, node)], [1, shape(sculpt, {}, 0)]])

@@ -26,7 +26,8 @@ function expectFile(plain) {
   const shown = nodesShown(json);
   const places = evaluateScene(plain, animation < 0 ? {} : { animation, time: end }).filter(({ node }) => shown.has(node))
     .flatMap(({ node, mesh, primitives }) => primitives.map(({ positions, corners }, primitive) => ({
-      node, mesh, primitive, positions, corners, vertices: positions.length / 3, isSkinned: json.nodes[node].skin !== undefined,
+      node, mesh, primitive, positions, corners, vertices: positions.length / 3,
+      isSkinned: json.nodes[node].skin !== undefined,
       targets: json.meshes[mesh].primitives[primitive].targets?.length ?? 0 })));
   return { end, places, clips: animation + 1 };
 }
@@ -49,12 +50,14 @@ function compare(file, expected, found) {
   let far = 0;
   for (const place of expected.places) {
     // Babylon hangs a skinned mesh elsewhere than at its node.
-    const same = found.places.find((each) => nameOf(place.isSkinned ? { ...each, node: place.node } : each) === nameOf(place));
+    const nameFound = (each) => nameOf(place.isSkinned ? { ...each, node: place.node } : each);
+    const same = found.places.find((each) => nameFound(each) === nameOf(place));
     if (!check(same, `${nameOf(place)} is not shown`)) continue;
     check(same.vertices === place.vertices, `${nameOf(place)}: ${same.vertices} vertices, expected ${place.vertices}`);
     check(same.targets === place.targets, `${nameOf(place)}: ${same.targets} targets, expected ${place.targets}`);
     if (same.vertices !== place.vertices) continue;
-    const off = Math.max(...place.corners.map((i) => distance(at(same.positions, i), at(place.positions, i)))) / diagonal(place.positions);
+    const distances = place.corners.map((i) => distance(at(same.positions, i), at(place.positions, i)));
+    const off = distances.reduce((a, b) => Math.max(a, b), 0) / diagonal(place.positions);
     check(off <= TOLERANCE, `${nameOf(place)} ends ${off} of its diagonal off`);
     far = Math.max(far, off);
   }
@@ -64,7 +67,8 @@ function compare(file, expected, found) {
 async function openInThree(browser, bytes, { end }) {
   const played = await evaluateGltf(browser, bytes, [end], -1);
   const positions = played.positionsAt(0);
-  return { complaints: played.complaints, clips: played.clips.length, places: played.places.map((place, i) => ({ ...place, positions: positions[i] })) };
+  return { complaints: played.complaints, clips: played.clips.length,
+    places: played.places.map((place, i) => ({ ...place, positions: positions[i] })) };
 }
 
 async function openInBabylon(browser, bytes, { end }) {
@@ -87,7 +91,8 @@ for (const [client, { page, open }] of Object.entries(CLIENTS)) {
     const expected = expectFile(await openPlain(file));
     try {
       const far = compare(`${client}: ${file}`, expected, await open(browser, readFileSync(file), expected));
-      console.log(`${client}: ${path.basename(file)}: ${expected.places.length} primitives, off by ${far.toExponential(1)} of the diagonal at the end`);
+      console.log(`${client}: ${path.basename(file)}: ${expected.places.length} primitives, ` +
+        `off by ${far.toExponential(1)} of the diagonal at the end`);
     } catch (error) {
       checks.check(false, `${client}: ${file}: ${error.message}`);
     }

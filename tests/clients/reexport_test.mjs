@@ -1,5 +1,6 @@
 // Bodies and faces dressed and exported by Blender (UVs, materials, texture, shape keys, skin, actions) morph and are kept.
-// Usage: node reexport_test.mjs --morphbake PROGRAM --meshes FOLDER --output FOLDER SET/A,B...    files are left in OUTPUT/baked
+// Usage: node reexport_test.mjs --morphbake PROGRAM --meshes FOLDER --output FOLDER SET/A,B...
+// The files are left in OUTPUT/baked.
 import { spawnSync } from 'node:child_process';
 import { existsSync, mkdirSync, rmSync, writeFileSync } from 'node:fs';
 import path from 'node:path';
@@ -32,7 +33,8 @@ function exportPairs() {
 
 function writeRecipe(set, folder) {
   const recipe = { version: 1, name: set, sources: { a: 'a.glb', b: 'b.glb' },
-    timeline: { keys: [{ time: 0, state: 'a' }, { time: 1, state: 'b' }] }, outputs: [{ file: `${set}.glb`, targets: 'tracks' }] };
+    timeline: { keys: [{ time: 0, state: 'a' }, { time: 1, state: 'b' }] },
+    outputs: [{ file: `${set}.glb`, targets: 'tracks' }] };
   const file = path.join(folder, 'recipe.json');
   writeFileSync(file, JSON.stringify(recipe));
   return file;
@@ -52,8 +54,9 @@ async function testPair(set) {
     `${set}: Blender's file has not the skin, materials and actions that this test is for`);
   for (const lost of await findLost(source, file, { node })) checks.check(false, `${set}: ${lost}`);
   const scale = diagonal(shapeOf(evaluateScene(a), node));
+  const animation = baked.json.animations.length - 1;
   const off = [a, b].map((plain, time) =>
-    farthest(shapeOf(evaluateScene(baked, { animation: baked.json.animations.length - 1, time }), node), shapeOf(evaluateScene(plain), node)) / scale);
+    farthest(shapeOf(evaluateScene(baked, { animation, time }), node), shapeOf(evaluateScene(plain), node)) / scale);
   console.log(`${set}: off by ${off[0].toExponential(1)} at the start, ${off[1].toExponential(1)} at the end`);
   checks.check(Math.max(...off) <= TOLERANCE, `${set}: the ends are ${off} of the diagonal off`);
 }

@@ -1,6 +1,7 @@
 // A glTF under construction: JSON, and bytes that its views take one after another.
 
-const ARRAYS = { 5120: Int8Array, 5121: Uint8Array, 5122: Int16Array, 5123: Uint16Array, 5125: Uint32Array, 5126: Float32Array };
+const ARRAYS = { 5120: Int8Array, 5121: Uint8Array, 5122: Int16Array, 5123: Uint16Array,
+  5125: Uint32Array, 5126: Float32Array };
 export const BYTE = 5120;
 export const UNSIGNED_BYTE = 5121;
 export const SHORT = 5122;
@@ -98,4 +99,5 @@ export function toGlb(document, others = []) {
 /** The text of a .gltf with these buffers. */
 export const toGltf = (document, buffers) => Buffer.from(JSON.stringify(finishJson(document, buffers), null, 1));
 
-export const dataUri = (bytes, type = 'application/octet-stream') => `data:${type};base64,${Buffer.from(bytes).toString('base64')}`;
+export const dataUri = (bytes, type = 'application/octet-stream') =>
+  `data:${type};base64,${Buffer.from(bytes).toString('base64')}`;

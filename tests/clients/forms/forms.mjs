@@ -22,21 +22,13 @@ function oneMesh(fill, node = {}, mesh = {}) {
 }
 
 /** The ring as most exporters write it. */
-function ringPrimitive(document, which, fields = {}) {
+function ringPrimitive(document, which, componentType = gltf.UNSIGNED_SHORT) {
   const shape = ring(which);
-  return { attributes: gltf.putSurface(document, shape), indices: gltf.putIndices(document, shape.triangles.flat()), ...fields };
+  return { attributes: gltf.putSurface(document, shape),
+    indices: gltf.putIndices(document, shape.triangles.flat(), componentType) };
 }
 
-const indexed = (componentType) => oneMesh((document, which) => ({ ...ringPrimitive(document, which),
-  indices: replaceLast(document, () => gltf.putIndices(document, ring(which).triangles.flat(), componentType)) }));
-
-/** Takes back the last accessor and its view, and makes another. */
-function replaceLast(document, make) {
-  document.json.accessors.pop();
-  document.json.bufferViews.pop();
-  document.length -= document.chunks.pop().length;
-  return make();
-}
+const indexed = (componentType) => oneMesh((document, which) => ringPrimitive(document, which, componentType));
 
 const withoutIndices = oneMesh((document, which) => ({ attributes: gltf.putSurface(document, unshared(ring(which))) }));
 
@@ -47,7 +39,8 @@ const strip = (mode) => oneMesh((document, which) => ({ mode, attributes: gltf.p
 const stripWithoutIndices = oneMesh((document, which) => {
   const shape = ring(which);
   const pick = (rows) => ringStrip().slice(0, 2 * (COLUMNS + 1)).map((i) => rows[i]);
-  return { mode: 5, attributes: gltf.putSurface(document, { points: pick(shape.points), normals: pick(shape.normals), uvs: pick(shape.uvs) }) };
+  const band = { points: pick(shape.points), normals: pick(shape.normals), uvs: pick(shape.uvs) };
+  return { mode: 5, attributes: gltf.putSurface(document, band) };
 });
 
 const fan = oneMesh((document, which) => {
@@ -60,7 +53,8 @@ const interleaved = oneMesh((document, which) => {
   const shape = ring(which);
   const rows = shape.points.map((p, i) => [...p, ...shape.normals[i], ...shape.uvs[i]]);
   const bufferView = gltf.putView(document, gltf.packRows(rows, gltf.FLOAT, 32), { byteStride: 32, target: gltf.VERTICES });
-  const put = (values, byteOffset, bounds) => gltf.describeAccessor(document, values, gltf.FLOAT, { bufferView, byteOffset }, bounds);
+  const put = (values, byteOffset, bounds) =>
+    gltf.describeAccessor(document, values, gltf.FLOAT, { bufferView, byteOffset }, bounds);
   return { attributes: { POSITION: put(shape.points, 0, true), NORMAL: put(shape.normals, 12), TEXCOORD_0: put(shape.uvs, 24) },
     indices: gltf.putIndices(document, shape.triangles.flat()) };
 });
@@ -71,12 +65,14 @@ const sparse = (isAlone) => oneMesh((document, which) => {
   const isTold = (i) => isAlone || i % 3 === 1;
   const told = points.map((_, i) => i).filter(isTold);
   const base = points.map((p, i) => (isTold(i) ? [9, 9, 9] : p));
-  const bufferView = isAlone ? {} : { bufferView: gltf.putView(document, gltf.packRows(base, gltf.FLOAT, 12), { target: gltf.VERTICES }) };
+  const packed = gltf.packRows(base, gltf.FLOAT, 12);
+  const bufferView = isAlone ? {} : { bufferView: gltf.putView(document, packed, { target: gltf.VERTICES }) };
   const indices = { bufferView: gltf.putView(document, gltf.packRows(told.map((i) => [i]), gltf.UNSIGNED_BYTE, 1)),
     componentType: gltf.UNSIGNED_BYTE };
   const values = { bufferView: gltf.putView(document, gltf.packRows(told.map((i) => points[i]), gltf.FLOAT, 12)) };
   const fields = { ...bufferView, sparse: { count: told.length, indices, values } };
-  return { attributes: { POSITION: gltf.describeAccessor(document, points, gltf.FLOAT, fields, true), NORMAL: gltf.putFloats(document, normals) },
+  const POSITION = gltf.describeAccessor(document, points, gltf.FLOAT, fields, true);
+  return { attributes: { POSITION, NORMAL: gltf.putFloats(document, normals) },
     indices: gltf.putIndices(document, triangles.flat()) };
 });
 
@@ -96,12 +92,12 @@ const quantised = (componentType, most, normalized) => async (which) => {
   const shape = ring(which);
   const { rows, node } = quantise(shape.points, most, componentType === gltf.BYTE || componentType === gltf.SHORT);
   const document = gltf.startDocument([{ ...SUBJECT, ...node(normalized ? 1 : most) }]);
-  const [byNormals, byUvs] = [shape.normals.map((n) => n.map((x) => Math.round(127 * x))), shape.uvs.map((uv) => uv.map((x) => Math.round(65535 * x)))];
+  const rounded = (list, unit) => list.map((row) => row.map((x) => Math.round(unit * x)));
   gltf.putMesh(document, [{
     attributes: {
       POSITION: gltf.putAccessor(document, rows, componentType, { bounds: true, ...(normalized && { normalized }) }, gltf.VERTICES),
-      NORMAL: gltf.putAccessor(document, byNormals, gltf.BYTE, { normalized: true }, gltf.VERTICES),
-      TEXCOORD_0: gltf.putAccessor(document, byUvs, gltf.UNSIGNED_SHORT, { normalized: true }, gltf.VERTICES),
+      NORMAL: gltf.putAccessor(document, rounded(shape.normals, 127), gltf.BYTE, { normalized: true }, gltf.VERTICES),
+      TEXCOORD_0: gltf.putAccessor(document, rounded(shape.uvs, 65535), gltf.UNSIGNED_SHORT, { normalized: true }, gltf.VERTICES),
     },
     indices: gltf.putIndices(document, shape.triangles.flat()),
   }]);
@@ -156,8 +152,8 @@ async function textured(which) {
   const shape = ring(which);
   const attributes = { ...gltf.putSurface(document, shape), TANGENT: gltf.putFloats(document, tangentsOf(shape)),
     TEXCOORD_1: gltf.putFloats(document, shape.uvs.map(([u, v]) => [v, u])),
-    COLOR_0: gltf.putAccessor(document, shape.uvs.map(([u, v]) => [u, v, 0.5, 1].map((x) => Math.round(255 * x))), gltf.UNSIGNED_BYTE,
-      { normalized: true }, gltf.VERTICES),
+    COLOR_0: gltf.putAccessor(document, shape.uvs.map(([u, v]) => [u, v, 0.5, 1].map((x) => Math.round(255 * x))),
+      gltf.UNSIGNED_BYTE, { normalized: true }, gltf.VERTICES),
     _HEAT: gltf.putFloats(document, shape.uvs.map(([u]) => [u * u])) };
   gltf.putMesh(document, [{ attributes, indices: gltf.putIndices(document, shape.triangles.flat()), material: 0 }]);
   paint(document, intoView(document));
@@ -179,7 +175,8 @@ async function pieces(which) {
   const document = gltf.startDocument([{ ...SUBJECT }]);
   gltf.putMesh(document, [0, 1].map((part) => {
     const piece = pieceOf(ring(which), part, 2);
-    return { attributes: gltf.putSurface(document, piece), indices: gltf.putIndices(document, piece.triangles.flat()), material: part };
+    return { attributes: gltf.putSurface(document, piece), indices: gltf.putIndices(document, piece.triangles.flat()),
+      material: part };
   }));
   paint(document, intoView(document));
   return document;
@@ -199,8 +196,8 @@ async function severalMeshes(which) {
   const document = gltf.startDocument([{ name: 'stand', mesh: 0, translation: [0, -2, 0], children: [1] },
     { ...SUBJECT, mesh: 1, translation: [0, 2.5, 0] }]);
   const stand = disc('a', 12);
-  gltf.putMesh(document, [{ attributes: gltf.putSurface(document, stand), indices: gltf.putIndices(document, stand.triangles.flat()) }],
-    { name: 'plate' });
+  gltf.putMesh(document, [{ attributes: gltf.putSurface(document, stand),
+    indices: gltf.putIndices(document, stand.triangles.flat()) }], { name: 'plate' });
   gltf.putMesh(document, [ringPrimitive(document, which)], { name: 'ring' });
   document.json.nodes.push({ name: 'elsewhere', mesh: 0 });
   document.json.scenes = [{ name: 'stand alone', nodes: [2] }, { nodes: [0] }];
@@ -210,7 +207,8 @@ async function severalMeshes(which) {
 
 async function instanced(which) {
   const document = await plainRing()(which);
-  document.json.nodes = [{ name: 'left', mesh: 0, translation: [-2, 0, 0] }, { name: 'right', mesh: 0, translation: [2, 0, 0], scale: [1, 1.1, 1] }];
+  document.json.nodes = [{ name: 'left', mesh: 0, translation: [-2, 0, 0] },
+    { name: 'right', mesh: 0, translation: [2, 0, 0], scale: [1, 1.1, 1] }];
   document.json.scenes[0].nodes = [0, 1];
   return document;
 }
@@ -228,17 +226,21 @@ function animate(document, name, node, path, times, values, interpolation) {
 function skinned({ componentType, jointType, sum }) {
   return async (which) => {
     const document = gltf.startDocument([{ ...SUBJECT, skin: 0, translation: [7, 7, 7] },
-      { name: 'hip', translation: [0, 0.1, 0], children: [2] }, { name: 'head', translation: [0, 0.4, 0], rotation: [0, 0, 0.0998334166, 0.9950041653] }]);
+      { name: 'hip', translation: [0, 0.1, 0], children: [2] },
+      { name: 'head', translation: [0, 0.4, 0], rotation: [0, 0, 0.0998334166, 0.9950041653] }]);
     document.json.scenes[0].nodes = [0, 1];
     const primitive = ringPrimitive(document, which);
     const shares = ring('a').points.map(([x]) => Math.min(1, Math.max(0, (x + 1) / 2)));
     const rows = shares.map((share) => (sum === 1 ? [1 - Math.fround(share), Math.fround(share), 0, 0]
       : [sum - Math.round(sum * share), Math.round(sum * share), 0, 0]));
-    primitive.attributes.JOINTS_0 = gltf.putAccessor(document, shares.map((share) => [0, share > 0 ? 1 : 0, 0, 0]), jointType, {}, gltf.VERTICES);
-    primitive.attributes.WEIGHTS_0 = gltf.putAccessor(document, rows, componentType, sum === 1 ? {} : { normalized: true }, gltf.VERTICES);
+    const joints = shares.map((share) => [0, share > 0 ? 1 : 0, 0, 0]);
+    primitive.attributes.JOINTS_0 = gltf.putAccessor(document, joints, jointType, {}, gltf.VERTICES);
+    primitive.attributes.WEIGHTS_0 =
+      gltf.putAccessor(document, rows, componentType, sum === 1 ? {} : { normalized: true }, gltf.VERTICES);
     gltf.putMesh(document, [primitive]);
-    const inverse = [[1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, -0.1, 0, 1], [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, -0.5, 0, 1]];
-    document.json.skins = [{ name: 'bones', joints: [1, 2], skeleton: 1, inverseBindMatrices: gltf.putAccessor(document, inverse, gltf.FLOAT) }];
+    const lowered = (y) => [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, -y, 0, 1];
+    document.json.skins = [{ name: 'bones', joints: [1, 2], skeleton: 1,
+      inverseBindMatrices: gltf.putAccessor(document, [lowered(0.1), lowered(0.5)], gltf.FLOAT) }];
     animate(document, 'nod', 2, 'rotation', [0, 1], [[0, 0, 0, 1], [0, 0, 0.479425539, 0.877582562]]);
     return document;
   };
@@ -249,7 +251,8 @@ const skin = skinned({ componentType: gltf.UNSIGNED_SHORT, jointType: gltf.UNSIG
 /** Targets 'wide' and 'tall'; with `normals` they move normals too. */
 function putTargets(document, primitive, which, { normals = false, zeros = false } = {}) {
   const { points } = ring(which);
-  const [wide, tall] = [points.map(([x]) => [Math.fround(0.3 * x), 0, 0]), points.map(([, y]) => [0, Math.fround(0.5 * y), 0])];
+  const wide = points.map(([x]) => [Math.fround(0.3 * x), 0, 0]);
+  const tall = points.map(([, y]) => [0, Math.fround(0.5 * y), 0]);
   const still = points.map(() => [0, 0, 0]);
   primitive.targets = [wide, tall].map((rows) => ({ POSITION: gltf.putPoints(document, rows),
     ...(normals && { NORMAL: gltf.putFloats(document, still.map(() => [0, 0.01, 0])) }) }));
@@ -272,6 +275,10 @@ const animatedTargets = (interpolation, values, node = {}) => async (which) => {
 const LINEAR_WEIGHTS = [0, 0, 1, 0, 0.25, 0.5];
 const CUBIC_WEIGHTS = [0, 0, 0, 0, 0.5, 0, 0, 0.1, 1, 0, 0, 0.2, 0, 0, 0.25, 0.5, 0, 0];
 
+/** Targets that weigh something at rest: the shape is what a viewer shows. */
+const restingTargets = oneMesh((document, which) => putTargets(document, ringPrimitive(document, which), which), {},
+  { weights: [0.5, 0.25], ...TARGET_NAMES });
+
 /** Weights as bytes, for two nodes of one mesh by one sampler. */
 async function instancedTargets(which) {
   const document = gltf.startDocument([{ ...SUBJECT }, { name: 'twin', mesh: 0, translation: [4, 0, 0], weights: [0, 1] }]);
@@ -279,7 +286,8 @@ async function instancedTargets(which) {
   gltf.putMesh(document, [putTargets(document, ringPrimitive(document, which), which)], { weights: [0, 0] });
   const rows = LINEAR_WEIGHTS.map((w) => [Math.round(255 * w)]);
   document.json.animations = [{ channels: [0, 1].map((node) => ({ sampler: 0, target: { node, path: 'weights' } })),
-    samplers: [{ input: gltf.putTimes(document, [0, 0.5, 2]), output: gltf.putAccessor(document, rows, gltf.UNSIGNED_BYTE, { normalized: true }) }] }];
+    samplers: [{ input: gltf.putTimes(document, [0, 0.5, 2]),
+      output: gltf.putAccessor(document, rows, gltf.UNSIGNED_BYTE, { normalized: true }) }] }];
   return document;
 }
 
@@ -287,7 +295,8 @@ async function instancedTargets(which) {
 async function sharedSampler(which) {
   const document = gltf.startDocument([{ name: 'other', mesh: 0, translation: [4, 0, 0] }, { ...SUBJECT, mesh: 1 }]);
   document.json.scenes[0].nodes = [0, 1];
-  for (const shape of ['a', which]) gltf.putMesh(document, [putTargets(document, ringPrimitive(document, shape), shape)], { weights: [0, 0] });
+  for (const shape of ['a', which])
+    gltf.putMesh(document, [putTargets(document, ringPrimitive(document, shape), shape)], { weights: [0, 0] });
   animate(document, 'both', 1, 'weights', [0, 0.5, 2], LINEAR_WEIGHTS);
   document.json.animations[0].channels.push({ sampler: 0, target: { node: 0, path: 'weights' } });
   return document;
@@ -303,10 +312,11 @@ async function targetsOfPieces(which) {
   return document;
 }
 
-const stillTargets = (which) => oneMesh((document) => putTargets(document, ringPrimitive(document, which), which, { zeros: true }))(which);
+const stillTargets = oneMesh((document, which) =>
+  putTargets(document, ringPrimitive(document, which), which, { zeros: true }));
 
-const namedTargets = (which) => oneMesh((document) => putTargets(document, ringPrimitive(document, which), which), {},
-  { weights: [0, 0], ...TARGET_NAMES })(which);
+const namedTargets = oneMesh((document, which) => putTargets(document, ringPrimitive(document, which), which), {},
+  { weights: [0, 0], ...TARGET_NAMES });
 
 const EXTRAS = [{ tags: ['a', { deep: [1, 2.5, null, true] }], 'größe': '9″', small: 1.2345678901234567e-12, big: 1e300 },
   'only text', 7, {}, [], false];
@@ -316,9 +326,10 @@ async function unknown(which) {
   const document = await textured(which);
   const { json } = document;
   const known = (place) => ({ EXAMPLE_maker: { place, list: [0, -1, 0.1], object: {}, index: 0 } });
-  const places = [json.asset, json.scenes[0], ...json.nodes, ...json.meshes, json.meshes[0].primitives[0], ...json.materials,
-    json.materials[0].pbrMetallicRoughness, json.materials[0].normalTexture, ...json.textures, ...json.images, ...json.samplers, ...json.accessors,
-    ...json.bufferViews, json];
+  const [material] = json.materials;
+  const places = [json.asset, json.scenes[0], ...json.nodes, ...json.meshes, json.meshes[0].primitives[0], material,
+    material.pbrMetallicRoughness, material.normalTexture, ...json.textures, ...json.images, ...json.samplers,
+    ...json.accessors, ...json.bufferViews, json];
   places.forEach((place, i) => Object.assign(place, { extras: EXTRAS[i % EXTRAS.length], extensions: known(i) }));
   json.meshes[0].extras = { artist: 'someone', 'λ': [[], {}] };
   json.extensionsUsed = ['EXAMPLE_maker'];
@@ -351,10 +362,11 @@ async function meshopt(which) {
   const document = gltf.startDocument([{ ...SUBJECT, ...node(1) }]);
   let length = 0;
   const fallback = { buffer: 1, take: (bytes) => (length += bytes + (-bytes & 3)) - bytes - (-bytes & 3) };
-  const vertices = { mode: 'ATTRIBUTES', target: gltf.VERTICES, fallback };
+  const vertices = { mode: 'ATTRIBUTES', target: gltf.VERTICES, fallback, accessor: { normalized: true } };
   const attributes = {
-    POSITION: await putMeshopt(document, rows, { ...vertices, componentType: gltf.SHORT, stride: 8, bounds: true, accessor: { normalized: true } }),
-    NORMAL: await putMeshopt(document, shape.normals, { ...vertices, componentType: gltf.BYTE, stride: 4, filter: 'OCTAHEDRAL', accessor: { normalized: true } }),
+    POSITION: await putMeshopt(document, rows, { ...vertices, componentType: gltf.SHORT, stride: 8, bounds: true }),
+    NORMAL: await putMeshopt(document, shape.normals,
+      { ...vertices, componentType: gltf.BYTE, stride: 4, filter: 'OCTAHEDRAL' }),
   };
   const indices = await putMeshopt(document, shape.triangles.flat().map((i) => [i]),
     { componentType: gltf.UNSIGNED_SHORT, stride: 2, mode: 'TRIANGLES', target: gltf.INDICES, fallback });
@@ -368,10 +380,12 @@ async function meshopt(which) {
 async function meshoptOptional(which) {
   const shape = ring(which);
   const document = gltf.startDocument([{ ...SUBJECT }]);
-  const put = (rows, more) => putMeshopt(document, rows, { mode: 'ATTRIBUTES', target: gltf.VERTICES, componentType: gltf.FLOAT, stride: 12, ...more });
+  const put = (rows, more) => putMeshopt(document, rows,
+    { mode: 'ATTRIBUTES', target: gltf.VERTICES, componentType: gltf.FLOAT, stride: 12, ...more });
   const attributes = { POSITION: await put(shape.points, { bounds: true }), NORMAL: await put(shape.normals),
     TEXCOORD_0: await put(shape.uvs, { stride: 8 }) };
-  const indices = await put(shape.triangles.flat().map((i) => [i]), { componentType: gltf.UNSIGNED_INT, stride: 4, mode: 'INDICES', target: gltf.INDICES });
+  const indices = await put(shape.triangles.flat().map((i) => [i]),
+    { componentType: gltf.UNSIGNED_INT, stride: 4, mode: 'INDICES', target: gltf.INDICES });
   gltf.putMesh(document, [{ attributes, indices }]);
   document.json.extensionsUsed = [MESHOPT];
   return document;
@@ -383,7 +397,8 @@ const draco = (method) => oneMesh((document, which) => putDraco(document, ring(w
 async function dracoBesidePlain(which) {
   const document = gltf.startDocument([{ ...SUBJECT }]);
   const [first, second] = [0, 1].map((part) => pieceOf(ring(which), part, 2));
-  const plain = { attributes: gltf.putSurface(document, first), indices: gltf.putIndices(document, first.triangles.flat()), material: 0 };
+  const plain = { attributes: gltf.putSurface(document, first), indices: gltf.putIndices(document, first.triangles.flat()),
+    material: 0 };
   const packed = await putDraco(document, second);
   paint(document, intoView(document));
   gltf.putMesh(document, [plain, { ...packed, material: 1 }]);
@@ -401,14 +416,16 @@ async function dataUris(which) {
   const { json } = document;
   json.images.forEach((image) => {
     const view = json.bufferViews[image.bufferView];
-    image.uri = gltf.dataUri(gltf.chunkOf(document).subarray(view.byteOffset, view.byteOffset + view.byteLength), 'image/png');
+    const bytes = gltf.chunkOf(document).subarray(view.byteOffset, view.byteOffset + view.byteLength);
+    image.uri = gltf.dataUri(bytes, 'image/png');
     delete image.bufferView, delete image.mimeType;
   });
   json.bufferViews.splice(-1);  // the image's, which is last
   const bin = gltf.chunkOf(document);
   const middle = json.bufferViews[4].byteOffset;
   for (const view of json.bufferViews.slice(4)) Object.assign(view, { buffer: 1, byteOffset: view.byteOffset - middle });
-  const buffers = [bin.subarray(0, middle), bin.subarray(middle)].map((bytes) => ({ byteLength: bytes.length, uri: gltf.dataUri(bytes) }));
+  const buffers = [bin.subarray(0, middle), bin.subarray(middle)].map((bytes) =>
+    ({ byteLength: bytes.length, uri: gltf.dataUri(bytes) }));
   return { main: `${which}.gltf`, files: { [`${which}.gltf`]: gltf.toGltf(document, buffers) } };
 }
 
@@ -417,7 +434,7 @@ const escaped = (name) => name.split('/').map(encodeURIComponent).join('/');
 /** A .gltf with its data and picture beside it, under names that a URI must escape. */
 async function external(which) {
   const document = gltf.startDocument([{ ...SUBJECT }]);
-  gltf.putMesh(document, [ringPrimitive(document, which, { material: 0 })]);
+  gltf.putMesh(document, [{ ...ringPrimitive(document, which), material: 0 }]);
   const names = { bin: `data of ${which}/points & more #1.bin`, png: `data of ${which}/größe 100%.png` };
   const files = {};
   paint(document, (bytes) => {
@@ -486,6 +503,7 @@ export const FORMS = {
   'targets-cubic': { make: single(animatedTargets('CUBICSPLINE', CUBIC_WEIGHTS, { weights: [0, 0] })) },
   'targets-instanced': { make: single(instancedTargets), select: { node: 'subject' } },
   'targets-shared-sampler': { make: single(sharedSampler), select: { node: 'subject' } },
+  'targets-resting': { make: single(restingTargets) },
   'targets-primitives': { make: single(targetsOfPieces) },
   'targets-zeros': { make: single(stillTargets) },
   'from-target': { make: single(namedTargets), a: { target: 'wide' }, b: { target: 1 },

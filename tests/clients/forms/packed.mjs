@@ -23,7 +23,8 @@ export async function putMeshopt(document, rows, { componentType, stride, mode, 
   const extension = { buffer: 0, byteOffset, byteLength, byteStride: stride, count: rows.length, mode, ...(filter && { filter }) };
   const view = { target, ...(target === gltf.VERTICES && { byteStride: stride }), extensions: { [MESHOPT]: extension } };
   if (fallback === undefined) gltf.putView(document, bytes, view);
-  else document.json.bufferViews.push({ buffer: fallback.buffer, byteOffset: fallback.take(bytes.length), byteLength: bytes.length, ...view });
+  else document.json.bufferViews.push({ buffer: fallback.buffer, byteOffset: fallback.take(bytes.length),
+    byteLength: bytes.length, ...view });
   return gltf.describeAccessor(document, rows, componentType, { bufferView: at, ...fields.accessor }, fields.bounds);
 }
 
@@ -35,7 +36,8 @@ export async function putDraco(document, shape, { method = 'MESH_EDGEBREAKER_ENC
   const attributes = {};
   for (const [name, kind, rows] of [['POSITION', 'POSITION', shape.points], ['NORMAL', 'NORMAL', shape.normals],
     ['TEXCOORD_0', 'TEX_COORD', shape.uvs]])
-    attributes[name] = builder.AddFloatAttributeToMesh(mesh, draco[kind], rows.length, rows[0].length, Float32Array.from(rows.flat()));
+    attributes[name] =
+      builder.AddFloatAttributeToMesh(mesh, draco[kind], rows.length, rows[0].length, Float32Array.from(rows.flat()));
   encoder.SetEncodingMethod(draco[method]);
   encoder.SetSpeedOptions(5, 5);
   encoder.SetTrackEncodedProperties(true);

@@ -5,7 +5,8 @@ import { GLTFLoader } from 'three/addons/loaders/GLTFLoader.js';
 /** Each further scene of a file makes the parser forget what it knows of the others. */
 function keepAssociations(parser) {
   const all = parser.associations;
-  Object.defineProperty(parser, 'associations', { get: () => all, set: (some) => some.forEach((value, key) => all.set(key, value)) });
+  Object.defineProperty(parser, 'associations',
+    { get: () => all, set: (some) => some.forEach((value, key) => all.set(key, value)) });
   return { name: 'keepAssociations' };
 }
 

@@ -7,7 +7,8 @@ const FAN = 6;
 /** Corner indices of a primitive of triangles: list, strip or fan, with indices or without. */
 export function cornersOf(plain, primitive) {
   const { count } = plain.json.accessors[primitive.attributes.POSITION];
-  const list = primitive.indices === undefined ? Array.from({ length: count }, (_, i) => i) : [...readAccessor(plain, primitive.indices)];
+  const list = primitive.indices === undefined ? Array.from({ length: count }, (_, i) => i)
+    : [...readAccessor(plain, primitive.indices)];
   if (primitive.mode !== STRIP && primitive.mode !== FAN) return list;
   const triangles = Array.from({ length: list.length - 2 }, (_, i) => {
     if (primitive.mode === FAN) return [list[i + 1], list[i + 2], list[0]];
@@ -50,7 +51,8 @@ function placePoints(plain, primitive, points, node, globals, index) {
   for (let i = 0; 3 * i < points.length; i++) {
     const m = matrixOf(i);
     for (let row = 0; row < 3; row++)
-      placed[3 * i + row] = m[row] * points[3 * i] + m[4 + row] * points[3 * i + 1] + m[8 + row] * points[3 * i + 2] + m[12 + row];
+      placed[3 * i + row] =
+        m[row] * points[3 * i] + m[4 + row] * points[3 * i + 1] + m[8 + row] * points[3 * i + 2] + m[12 + row];
   }
   return placed;
 }
@@ -59,7 +61,8 @@ function placePoints(plain, primitive, points, node, globals, index) {
 function skinMatrices(plain, primitive, node, globals) {
   const { joints, inverseBindMatrices } = plain.json.skins[node.skin];
   const inverse = inverseBindMatrices === undefined ? null : readAccessor(plain, inverseBindMatrices);
-  const matrices = joints.map((joint, k) => (inverse ? multiply(globals[joint], inverse.subarray(16 * k, 16 * k + 16)) : globals[joint]));
+  const matrices = joints.map((joint, k) =>
+    (inverse ? multiply(globals[joint], inverse.subarray(16 * k, 16 * k + 16)) : globals[joint]));
   const sets = [];
   for (let set = 0; primitive.attributes[`JOINTS_${set}`] !== undefined; set++)
     sets.push([primitive.attributes[`JOINTS_${set}`], primitive.attributes[`WEIGHTS_${set}`]].map((at) => readAccessor(plain, at)));
