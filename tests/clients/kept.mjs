@@ -38,6 +38,7 @@ export function compareDocuments(before, after, { node, startsThere = true, clip
   const kept = { ...subject.before, images: takeImages(before, after, left, lost) };
   for (const json of [kept, left]) forgetAllowed(json);
   differences(kept, left, '', lost);
+  if (lost.length > 0) return lost;  // values are compared where the JSON is alike
   compareAccessors(before, after, new Set([...weighed, ...moved]), lost);
   if (before.unpacked.size === 0) compareViews(before, after, new Set([...weighed, ...moved]), lost);
   compareImages(before, after, lost);
