@@ -104,8 +104,6 @@ export const skinCases = {
   'joints without weights': [skin((g) => { delete g.meshes[0].primitives[0].attributes.WEIGHTS_0; }), `${P}/attributes`, 'gltf.'],
 };
 
-export const baked = { ...nodes, ...primitives, ...targetCases, ...skinCases };
-
 /** A target and a weights animation with keys at `times`; `change(gltf, sampler)` spoils it. */
 const animated = (change, times = [0, 1], weights = [0, 1]) => (gltf) => {
   gltf.meshes[0].primitives[0].targets = [{ POSITION: addAccessor(gltf, new Float32Array(POSITIONS.length / 4), 'VEC3', FLOAT) }];
@@ -119,6 +117,29 @@ const animated = (change, times = [0, 1], weights = [0, 1]) => (gltf) => {
 const A = '#/animations/0/samplers/0';
 const same = () => {};
 
+/** What stays in the file that is written, with numbers for the new targets. */
+const animations = {
+  'text for channels': [animated((g) => { g.animations[0].channels = 'x'; }), '#/animations/0', 'gltf.'],
+  'number for a channel': [animated((g) => { g.animations[0].channels = [3]; }), '#/animations/0', 'gltf.'],
+  'number for a sampler': [animated((g) => { g.animations[0].samplers = [3]; }), '#/animations/0', 'gltf.'],
+  'animation without samplers': [animated((g) => { delete g.animations[0].samplers; }), '#/animations/0', 'gltf.'],
+  'animation without channels': [animated((g) => { delete g.animations[0].channels; }), '#/animations/0', 'gltf.'],
+  'channel without a sampler': [animated((g) => { delete g.animations[0].channels[0].sampler; }), '#/animations/0', 'gltf.'],
+  'channel without a target': [animated((g) => { delete g.animations[0].channels[0].target; }), '#/animations/0', 'gltf.'],
+  'channel without a path': [animated((g) => { delete g.animations[0].channels[0].target.path; }), '#/animations/0', 'gltf.'],
+  'text for a channel\'s sampler': [animated((g) => { g.animations[0].channels[0].sampler = 'x'; }), '#/animations/0', 'gltf.'],
+  'text for a channel\'s node': [animated((g) => { g.animations[0].channels[0].target.node = 'x'; }), '#/animations/0', 'gltf.'],
+  'sampler of four billion': [animated((g) => { g.animations[0].channels[0].sampler = 4294967295; }), '#/animations/0', 'gltf.'],
+  'missing sampler': [animated((g) => { g.animations[0].channels[0].sampler = 8; }), '#/animations/0', INVALID],
+  'sampler -1': [animated((g) => { g.animations[0].channels[0].sampler = -1; }), '#/animations/0', 'gltf.'],
+  'text for a key': [animated((g, s) => { s.input = 'x'; }), '#/animations/0', 'gltf.'],
+  'sampler without an output': [animated((g, s) => { delete s.output; }), '#/animations/0', 'gltf.'],
+  'fewer weights than keys, baked': [animated(same, [0, 1], [0]), `${A}/output`, '[gltf.accessor]'],
+  'key time not a number, baked': [animated(same, [0, NaN]), `${A}/input`, '[gltf.not-finite]'],
+};
+
+export const baked = { ...nodes, ...primitives, ...targetCases, ...skinCases, ...animations };
+
 /** What `preview` reads. */
 export const previewed = {
   'key time not a number': [animated(same, [0, NaN]), `${A}/input`, '[gltf.not-finite]'],
@@ -131,12 +152,7 @@ export const previewed = {
   'fewer weights than keys': [animated(same, [0, 1], [0]), `${A}/output`, '[gltf.accessor]'],
   'keys of a missing accessor': [animated((g, s) => { s.input = 55; }), `${A}/input`, '[gltf.accessor]'],
   'keys of vectors': [animated((g, s) => { s.input = 0; }), `${A}/input`, '[gltf.accessor]'],
-  'missing sampler': [animated((g) => { g.animations[0].channels[0].sampler = 8; }), '#/animations/0', INVALID],
-  'sampler -1': [animated((g) => { g.animations[0].channels[0].sampler = -1; }), '#/animations/0', 'gltf.'],
   'unknown interpolation': [animated((g, s) => { s.interpolation = 'MAGIC'; }), `${A}/interpolation`, 'gltf.'],
-  'text for channels': [animated((g) => { g.animations[0].channels = 'x'; }), '#/animations/0', 'gltf.'],
-  'number for a sampler': [animated((g) => { g.animations[0].samplers = [3]; }), '#/animations/0', 'gltf.'],
-  'animation without samplers': [animated((g) => { delete g.animations[0].samplers; }), '#/animations/0', 'gltf.'],
   'fewer colours': [(g) => {
     g.meshes[0].primitives[0].attributes.COLOR_0 = addAccessor(g, new Float32Array(9), 'VEC3', FLOAT);
   }, `${P}/attributes/COLOR_0`, '[gltf.accessor]'],
