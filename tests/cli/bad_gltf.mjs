@@ -36,7 +36,7 @@ const filesBelow = (folder) => readdirSync(folder, { recursive: true, withFileTy
 const folderOf = (name) => join(scratch, name.replaceAll(/[^A-Za-z0-9]/g, '-'));
 
 /** A folder with the bad file, a good one, a recipe for both, and what the bad one's URIs are to reach or not. */
-function makeFolder(name, change) {
+function makeFolder(name, change, choice) {
   const folder = join(folderOf(name), 'recipe');
   mkdirSync(folder, { recursive: true });
   writeFileSync(join(folder, '..', 'secret.bin'), Buffer.alloc(192));
@@ -49,7 +49,8 @@ function makeFolder(name, change) {
   writeFileSync(join(folder, 'good.gltf'), JSON.stringify(octahedron()));
   writeFileSync(join(folder, 'bad.gltf'), makeFile(change));
   writeFileSync(join(folder, 'recipe.json'), JSON.stringify({
-    version: 1, name: 'bad', sources: { bad: 'bad.gltf', good: 'good.gltf' },  // of the first one everything is kept, and written
+    version: 1, name: 'bad', // Of the first source everything is kept, and written.
+    sources: { bad: choice ? { file: 'bad.gltf', ...choice } : 'bad.gltf', good: 'good.gltf' },
     timeline: { tracks: [{ name: 'all', to: 'good', begin: 0, end: 1 }] },
     outputs: [{ file: 'out/bad.glb' }],
   }));
@@ -87,8 +88,8 @@ const words = {
 };
 
 /** Problems of one case: [] when all is as it must be. */
-async function check(name, command, [change, ...texts], { mayBeRead = false, inspected = false }) {
-  const folder = makeFolder(name, change);
+async function check(name, command, [change, ...texts], { choice, mayBeRead = false, inspected = false }) {
+  const folder = makeFolder(name, change, choice);
   const before = filesBelow(folder).length;
   const done = await run(name, folder, words[command](folder));
   const problems = [...done.problems];
@@ -112,6 +113,7 @@ const all = [
   ...cases([container, packed], 'baked', 'bake'),
   // Inspect reads more of a file than a bake does: it must end well, however it ends.
   ...cases([accessors, scene, huge], 'baked', 'bake', { inspected: true }),
+  ...Object.entries(scene.chosen).map(([name, [choice, ...definition]]) => ({ name, definition, command: 'bake', rules: { choice } })),
   ...cases([scene, pictures, huge], 'previewed', 'preview'),
   ...cases([accessors, packed, pictures, huge], 'legal', 'bake', { mayBeRead: true }),
 ].filter(({ name }) => name.includes(part));

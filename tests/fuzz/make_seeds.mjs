@@ -39,7 +39,8 @@ for (const kind of ['gltf', 'recipe']) mkdirSync(join(folder, kind), { recursive
 
 write('gltf', 'octahedron.gltf', JSON.stringify(octahedron()));
 write('gltf', 'octahedron.glb', made((gltf) => { const { json, bin } = binaryOctahedron(gltf); return glb([json, bin]); }));
-for (const { baked = {}, previewed = {}, legal = {} } of [accessors, container, packed, pictures, scene]) {
+const chosen = Object.fromEntries(Object.entries(scene.chosen).map(([name, [, ...definition]]) => [name, definition]));
+for (const { baked = {}, previewed = {}, legal = {} } of [accessors, container, packed, pictures, scene, { legal: chosen }]) {
   for (const [name, [change]] of Object.entries({ ...baked, ...previewed, ...legal })) {
     if (!/800 MB|268 MB|64 MB|million/.test(name)) write('gltf', `${name}.gltf`, made(change));
   }

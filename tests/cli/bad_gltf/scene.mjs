@@ -54,7 +54,7 @@ const target = (values) => (gltf) => {
   gltf.meshes[0].primitives[0].targets = [{ POSITION: addAccessor(gltf, values, 'VEC3', FLOAT) }];
 };
 
-export const targetCases = {
+const targetCases = {
   'target of fewer vertices': [target(new Float32Array(9)), `${P}/targets/0/POSITION`, '[gltf.accessor]'],
   'target of more vertices': [target(new Float32Array(60)), `${P}/targets/0/POSITION`, '[gltf.accessor]'],
   'target not a number': [target(new Float32Array(18).fill(NaN)), `${P}/targets/0/POSITION`, '[gltf.not-finite]'],
@@ -76,10 +76,13 @@ const skin = (change) => (gltf) => {
   attributes.JOINTS_0 = addAccessor(gltf, new Uint8Array(24), 'VEC4', UBYTE);
   attributes.WEIGHTS_0 = addAccessor(gltf, Float32Array.from({ length: 24 }, (_, i) => (i % 4 ? 0 : 1)), 'VEC4', FLOAT);
   gltf.skins = [{ joints: [1], inverseBindMatrices: addAccessor(gltf, new Float32Array(16), 'MAT4', FLOAT) }];
+  const input = addAccessor(gltf, Float32Array.of(0, 1), 'SCALAR', FLOAT);
+  const output = addAccessor(gltf, new Float32Array(6), 'VEC3', FLOAT);
+  gltf.animations = [{ samplers: [{ input, output }], channels: [{ sampler: 0, target: { node: 1, path: 'translation' } }] }];
   change(gltf, gltf.skins[0]);
 };
 
-export const skinCases = {
+const skinCases = {
   'missing skin': [skin((g) => { g.nodes[0].skin = 4; }), '#/nodes/0/skin', INVALID],
   'skin without joints': [skin((g, s) => { delete s.joints; }), '#/skins/0', 'gltf.'],
   'skin of no joints': [skin((g, s) => { s.joints = []; }), '#/skins/0', 'gltf.'],
@@ -138,7 +141,29 @@ const animations = {
   'key time not a number, baked': [animated(same, [0, NaN]), `${A}/input`, '[gltf.not-finite]'],
 };
 
-export const baked = { ...nodes, ...primitives, ...targetCases, ...skinCases, ...animations };
+export const baked = { ...nodes, ...primitives, ...targetCases, ...animations };
+
+const MOMENT = { animation: { time: 0.5 } };
+const chooses = (choice, ...texts) => [choice, animated(same), ...texts];
+
+/** Sources of which a recipe chooses a part or a moment: what it chooses, then as above. */
+export const chosen = {
+  ...Object.fromEntries(Object.entries(skinCases).map(([name, definition]) => [name, [MOMENT, ...definition]])),
+  'moment of no animation': [MOMENT, same, '[gltf.no-such-animation]'],
+  'missing animation': chooses({ animation: { name: 'walk', time: 0 } }, 'walk', '[gltf.no-such-animation]'),
+  'animation 7': chooses({ animation: { name: 7, time: 0 } }, '[gltf.no-such-animation]'),
+  'chosen node without a mesh': [{ node: 1 }, (g) => { g.nodes.push({}); }, '#/nodes/1', '[gltf.no-mesh]'],
+  'missing chosen node': chooses({ node: 'hand' }, 'hand', '[gltf.no-such-node]'),
+  'node 16 million': chooses({ node: 16777216 }, '[gltf.no-such-node]'),
+  'missing chosen mesh': chooses({ mesh: 'hand' }, 'hand', '[gltf.no-such-mesh]'),
+  'missing chosen target': chooses({ target: 'smile' }, 'smile', '[gltf.no-such-target]'),
+  'target 9': chooses({ target: 9 }, '[gltf.no-such-target]'),
+  'moment of a key time not a number': [MOMENT, animated(same, [0, NaN]), `${A}/input`, '[gltf.not-finite]'],
+  'moment of key times that fall': [MOMENT, animated(same, [1, 0]), `${A}/input`, INVALID],
+  'moment of fewer weights than keys': [MOMENT, animated(same, [0, 1], [0]), `${A}/output`, '[gltf.accessor]'],
+  'moment of a missing sampler': [MOMENT, animated((g) => { g.animations[0].channels[0].sampler = 8; }), '#/animations/0', INVALID],
+  'moment with astronomic weights': [MOMENT, animated(same, [0, 1], [3e38, 3e38]), 'gltf.'],
+};
 
 /** What `preview` reads. */
 export const previewed = {
