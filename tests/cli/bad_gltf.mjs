@@ -48,8 +48,9 @@ function makeFolder(name, change, choice) {
   writeFileSync(join(folder, 'megabyte.bin'), Buffer.alloc(1 << 20));
   writeFileSync(join(folder, 'good.gltf'), JSON.stringify(octahedron()));
   writeFileSync(join(folder, 'bad.gltf'), makeFile(change));
+  // The bad file is the first source, of which everything is kept and written.
   writeFileSync(join(folder, 'recipe.json'), JSON.stringify({
-    version: 1, name: 'bad', // Of the first source everything is kept, and written.
+    version: 1, name: 'bad',
     sources: { bad: choice ? { file: 'bad.gltf', ...choice } : 'bad.gltf', good: 'good.gltf' },
     timeline: { tracks: [{ name: 'all', to: 'good', begin: 0, end: 1 }] },
     outputs: [{ file: 'out/bad.glb' }],
