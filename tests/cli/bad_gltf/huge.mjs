@@ -1,0 +1,93 @@
+// Small files that ask for much: copies that multiply, lists of millions, depth.
+import { FLOAT, USHORT, addAccessor, binChunk, container, jsonChunk } from './good.mjs';
+
+const MILLION = 1e6, BIG = 1 << 20;  // bytes of what is shared
+
+/** The octahedron as .glb, with `size` zeros in the binary chunk as buffer 1's stead; view 3 shows them. */
+const withZeros = (size, change) => (gltf) => {
+  const bytes = Buffer.concat([Buffer.from(gltf.buffers[0].uri.split(',')[1], 'base64'), Buffer.alloc(size)]);
+  gltf.buffers = [{ byteLength: bytes.length }];
+  gltf.bufferViews.push({ buffer: 0, byteOffset: 192, byteLength: size });
+  change(gltf);
+  return container([jsonChunk(gltf), binChunk(bytes)]);
+};
+
+const vectors = (count) => ({ bufferView: 3, componentType: FLOAT, count, type: 'VEC3' });
+const LARGE = '[gltf.too-large]';
+
+/** The octahedron's JSON with `part` `count` times in the list `kind`, without making them all first. */
+const many = (kind, part, count) => (gltf) => {
+  const text = JSON.stringify({ ...gltf, [kind]: ['@'] });
+  const kept = (gltf[kind] ?? []).map((each) => JSON.stringify(each));
+  return text.replace('"@"', [...kept, ...new Array(count).fill(JSON.stringify(part))].join());
+};
+
+const primitives = (count) => (gltf) => {
+  const [primitive] = gltf.meshes[0].primitives;
+  gltf.meshes[0].primitives = ['@'];
+  return JSON.stringify(gltf).replace('"@"', new Array(count).fill(JSON.stringify(primitive)).join());
+};
+
+export const baked = {
+  'one megabyte of positions, 10,000 primitives': [withZeros(BIG, (g) => {
+    g.accessors.push(vectors(87381));
+    g.meshes[0].primitives = new Array(10000).fill({ attributes: { POSITION: 3 }, indices: 2 });
+  }), LARGE],
+  'one megabyte of indices, 10,000 primitives': [withZeros(BIG, (g) => {
+    g.accessors.push({ bufferView: 3, componentType: USHORT, count: 524286, type: 'SCALAR' });
+    g.meshes[0].primitives = new Array(10000).fill({ attributes: { POSITION: 0 }, indices: 3 });
+  }), LARGE],
+  'one megabyte, 10,000 targets': [withZeros(BIG, (g) => {
+    g.accessors.push(vectors(87381));
+    g.meshes[0].primitives = [{ attributes: { POSITION: 3 }, indices: 2, targets: new Array(10000).fill({ POSITION: 3 }) }];
+  }), LARGE],
+  'one megabyte, 10,000 images': [withZeros(BIG, (g) => { g.images = new Array(10000).fill({ bufferView: 3, mimeType: 'image/png' }); }), LARGE],
+  'one file, 10,000 buffers': [(g) => { g.buffers.push(...new Array(10000).fill({ byteLength: BIG, uri: 'megabyte.bin' })); }, LARGE],
+};
+
+const previewTargets = withZeros(BIG, (g) => {
+  g.accessors.push(vectors(87381));
+  g.meshes[0].primitives = [{ attributes: { POSITION: 3 }, indices: 2, targets: new Array(10000).fill({ POSITION: 3 }) }];
+});
+
+export const previewed = {
+  'one megabyte, 10,000 targets in a preview': [previewTargets, LARGE],
+  'two billion zeros for keys': [(g) => {
+    g.meshes[0].primitives[0].targets = [{ POSITION: 0 }];
+    g.accessors.push({ componentType: FLOAT, count: 2 ** 31, type: 'SCALAR' });
+    g.animations = [{ samplers: [{ input: 3, output: 3 }], channels: [{ sampler: 0, target: { node: 0, path: 'weights' } }] }];
+  }, LARGE],
+};
+
+/** Legal, yet more than anybody has: they may be read, or refused as too large. */
+export const legal = {
+  'a million empty nodes': [many('nodes', {}, MILLION)],
+  'a million empty animations': [many('animations', { samplers: [], channels: [] }, MILLION)],
+  'a million accessors': [many('accessors', { bufferView: 0, componentType: FLOAT, count: 6, type: 'VEC3' }, MILLION)],
+  'a million views': [many('bufferViews', { buffer: 0, byteLength: 4 }, MILLION)],
+  'a million meshes': [many('meshes', { primitives: [] }, MILLION)],
+  'a million materials': [many('materials', {}, MILLION)],
+  'a million textures': [many('textures', {}, MILLION)],
+  'a million skins': [many('skins', { joints: [0] }, MILLION)],
+  'a million primitives': [primitives(MILLION)],
+  'eight million zeros for positions': [(g) => { g.accessors[0] = { componentType: FLOAT, count: 2 ** 23, type: 'VEC3' }; delete g.meshes[0].primitives[0].attributes.NORMAL; }],
+  'eight million zeros for indices': [(g) => { g.accessors[2] = { componentType: USHORT, count: 8388606, type: 'SCALAR' }; }],
+  '10,000 primitives': [primitives(10000)],
+  'ten million numbers in extras': [(g) => JSON.stringify({ ...g, extras: ['@'] }).replace('"@"', new Array(1e7).fill(0).join())],
+  '100,000 generations of nodes': [(g) => {
+    g.nodes = Array.from({ length: 1e5 }, (_, i) => ({ children: [i + 1] }));
+    g.nodes.push({ mesh: 0 });
+  }],
+  '100,000 children': [(g) => {
+    g.nodes = [{ mesh: 0, children: Array.from({ length: 1e5 }, (_, i) => i + 1) }, ...new Array(1e5).fill({})];
+  }],
+  '20,000 accessors of the same numbers': [(g) => { for (let i = 0; i < 20000; ++i) g.accessors.push(g.accessors[0]); }],
+  'a 64 MB binary chunk': [withZeros(64e6, () => {})],
+  '64 MB of spaces in the JSON': [(g) => Buffer.concat([Buffer.from(`${JSON.stringify(g).slice(0, -1)}`), Buffer.alloc(64e6, ' '), Buffer.from('}')])],
+  'a name of 10 MB': [(g) => { g.nodes[0].name = 'n'.repeat(1e7); }],
+  'a data URI of 30 MB': [(g) => {
+    g.accessors.push(vectors(87381));
+    addAccessor(g, new Float32Array(22.5e6 / 4), 'SCALAR', FLOAT);
+    g.accessors.splice(3, 1);
+  }],
+};

@@ -1,0 +1,62 @@
+// Writes the files from which fuzzing starts: small ones, each another feature.
+//
+//   node make_seeds.mjs FOLDER    makes FOLDER/gltf and FOLDER/recipe
+import { existsSync, mkdirSync, readdirSync, readFileSync, rmSync, statSync, writeFileSync } from 'node:fs';
+import { basename, dirname, extname, join, relative } from 'node:path';
+import { fileURLToPath } from 'node:url';
+import * as accessors from '../cli/bad_gltf/accessors.mjs';
+import * as container from '../cli/bad_gltf/container.mjs';
+import { binaryOctahedron, container as glb, octahedron } from '../cli/bad_gltf/good.mjs';
+import * as packed from '../cli/bad_gltf/packed.mjs';
+import * as pictures from '../cli/bad_gltf/pictures.mjs';
+import * as scene from '../cli/bad_gltf/scene.mjs';
+
+const LARGEST = 65536;  // bytes: what libFuzzer is told to make at most
+const folder = process.argv[2];
+const root = join(dirname(fileURLToPath(import.meta.url)), '..', '..');
+
+function filesBelow(path, extensions) {
+  if (!existsSync(path)) return [];
+  return readdirSync(path, { recursive: true, withFileTypes: true })
+    .filter((entry) => entry.isFile() && extensions.includes(extname(entry.name)))
+    .map((entry) => join(entry.parentPath ?? entry.path, entry.name))
+    .filter((file) => !relative(root, file).includes('node_modules') && statSync(file).size <= LARGEST);
+}
+
+function write(kind, name, bytes) {
+  if (bytes.length <= LARGEST) writeFileSync(join(folder, kind, name.replaceAll(/[^A-Za-z0-9.]/g, '_')), bytes);
+}
+
+/** The file that `change` makes of the octahedron. */
+function made(change) {
+  const gltf = octahedron();
+  const result = change(gltf);
+  return typeof result === 'string' || Buffer.isBuffer(result) ? result : JSON.stringify(gltf);
+}
+
+rmSync(folder, { recursive: true, force: true });
+for (const kind of ['gltf', 'recipe']) mkdirSync(join(folder, kind), { recursive: true });
+
+write('gltf', 'octahedron.gltf', JSON.stringify(octahedron()));
+write('gltf', 'octahedron.glb', made((gltf) => { const { json, bin } = binaryOctahedron(gltf); return glb([json, bin]); }));
+const chosen = Object.fromEntries(Object.entries(scene.chosen).map(([name, [, ...definition]]) => [name, definition]));
+for (const { baked = {}, previewed = {}, legal = {} } of [accessors, container, packed, pictures, scene, { legal: chosen }]) {
+  for (const [name, [change]] of Object.entries({ ...baked, ...previewed, ...legal })) {
+    if (!/800 MB|268 MB|64 MB|million/.test(name)) write('gltf', `${name}.gltf`, made(change));
+  }
+}
+for (const place of ['examples', 'tests/clients/forms', 'tests/clients/shapes']) {
+  for (const file of filesBelow(join(root, place), ['.glb', '.gltf'])) write('gltf', basename(file), readFileSync(file));
+}
+for (const place of ['examples', 'tests/cli', 'tests/clients']) {
+  for (const file of filesBelow(join(root, place), ['.json'])) {
+    if (readFileSync(file, 'utf8').includes('"sources"')) write('recipe', relative(root, file), readFileSync(file));
+  }
+}
+// Names as the fuzz target has them beside the recipe.
+write('recipe', 'two_sources.json', JSON.stringify({
+  version: 1, name: 'two', sources: { a: 'a.glb', b: 'b.glb' },
+  regions: { nose: { landmark: 'nose', inner: 0.1, outer: 0.3 } },
+  timeline: { tracks: [{ name: 'all', to: 'b', begin: 0, end: 1 }] },
+  outputs: [{ file: 'out.glb' }],
+}));
