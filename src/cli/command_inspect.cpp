@@ -4,10 +4,14 @@
 #include <algorithm>
 #include <filesystem>
 #include <memory>
+#include <variant>
 
 #include "cli/commands.h"
+#include "cli/health_text.h"
+#include "morphbake/connectivity/mesh_health.h"
 #include "morphbake/gltf/animated_mesh.h"
 #include "morphbake/json/json.h"
+#include "morphbake/sources/source_mesh.h"
 
 namespace morphbake::cli {
 namespace {
@@ -27,10 +31,20 @@ struct Facts {
   std::vector<TargetFacts> targets;
   int moving_vertices = 0;  ///< by any target
   std::size_t keys = 0;
-  double duration = 0;         ///< seconds
-  Eigen::AlignedBox3d bounds;  ///< of the base shape in the scene
-  Eigen::Index gpu_bytes = 0;  ///< of the targets' texture in three.js
+  double duration = 0;                       ///< seconds
+  Eigen::AlignedBox3d bounds;                ///< of the base shape in the scene
+  Eigen::Index gpu_bytes = 0;                ///< of the targets' texture in three.js
+  std::variant<MeshHealth, Problem> health;  ///< or why the mesh can be no source
 };
+
+/// The health of the mesh as a source, at rest.
+std::variant<MeshHealth, Problem> find_health(const GltfFile& file, const Observer& observer) {
+  try {
+    return examine_mesh(read_source("mesh", file), observer);
+  } catch (const BakeError& error) {
+    return error.problems().front();
+  }
+}
 
 /// Adds what the targets of one primitive move.
 void count_motion(const AnimatedPrimitive& primitive, Facts& facts) {
@@ -50,9 +64,11 @@ void count_motion(const AnimatedPrimitive& primitive, Facts& facts) {
   for (const bool does_move : moves) facts.moving_vertices += does_move ? 1 : 0;
 }
 
-Facts find_facts(const std::filesystem::path& file) {
-  const AnimatedMesh mesh = read_animated_mesh(file);
+Facts find_facts(const std::filesystem::path& file, const Observer& observer) {
+  const GltfFile document = open_gltf(file);
+  const AnimatedMesh mesh = read_animated_mesh(document);
   Facts facts;
+  facts.health = find_health(document, observer);
   facts.file = file;
   std::error_code ignored;  // the file was read above
   facts.bytes = std::filesystem::file_size(file, ignored);
@@ -114,6 +130,14 @@ std::string as_json(const Facts& facts) {
   json["bounds"]["min"] = to_json(facts.bounds.min());
   json["bounds"]["max"] = to_json(facts.bounds.max());
   json["gpu_bytes"] = facts.gpu_bytes;
+  if (const auto* health = std::get_if<MeshHealth>(&facts.health)) {
+    json["health"] = health_json(*health);
+  } else {
+    const auto& problem = std::get<Problem>(facts.health);
+    json["health"]["not_examined"] = {{"code", problem.code},
+                                      {"pointer", problem.location.pointer},
+                                      {"message", problem.message}};
+  }
   return json.dump(2, ' ', false, Json::error_handler_t::replace);
 }
 
@@ -135,6 +159,13 @@ void print_facts(const Facts& facts, Terminal& terminal) {
                                 target.name.empty() ? "(no name)" : target.name,
                                 target.moving_vertices, target.largest_displacement));
   }
+  if (const auto* health = std::get_if<MeshHealth>(&facts.health)) {
+    for (const std::string& line : health_lines(*health)) terminal.result(line);
+  } else {
+    const auto& problem = std::get<Problem>(facts.health);
+    terminal.result(
+        fmt::format("health      not examined: {} [{}]", problem.message, problem.code));
+  }
 }
 
 }  // namespace
@@ -146,13 +177,16 @@ Command add_inspect(CLI::App& program) {
   };
 
   auto arguments = std::make_shared<Arguments>();
-  CLI::App* parser =
-      program.add_subcommand("inspect", "Show the targets, sizes and bounds of a glTF");
+  CLI::App* parser = program.add_subcommand(
+      "inspect", "Show the targets, sizes, bounds and mesh health of a glTF");
   parser->add_option("FILE", arguments->file, "A .glb or .gltf file")->required();
   parser->add_flag("--json", arguments->json, "The same as JSON");
-  parser->footer("\nExample: morphbake inspect morph.glb --json");
+  parser->footer(
+      "\nHealth is what a bake mends, warns of or refuses in the mesh; looking through a million\n"
+      "triangles takes some seconds.\n"
+      "\nExample: morphbake inspect morph.glb --json");
   return {parser, [arguments](Terminal& terminal) {
-            const Facts facts = find_facts(arguments->file);
+            const Facts facts = find_facts(arguments->file, terminal.observer());
             if (arguments->json) return terminal.result(as_json(facts));
             print_facts(facts, terminal);
           }};

@@ -57,7 +57,8 @@ struct BakeReport {
 
 std::string report_to_json(const BakeReport& report);
 
-/// Bakes a recipe: one call a stage. All output files appear together at the end, or none.
+/// Bakes a recipe: one call a stage. All output files appear together at the end, or none; but
+/// sources that are not connected alike leave a picture of it, <first output>.mismatch.png.
 ///
 /// @throws BakeError, Cancelled
 BakeReport bake(const Recipe& recipe, const BakeOptions& options, const Observer& observer);
