@@ -47,9 +47,10 @@ class BoundaryVertices {
   std::vector<int> beside(int vertex) const {
     std::vector<int> found = {vertex};
     const Cell middle = cell_of(vertex);
+    const auto step = [](int third) { return static_cast<double>(third % 3 - 1); };
     for (int i = 0; i < 27 && found.size() < kMostBeside; ++i) {
       const auto cell =
-          cells_.find({middle[0] + i % 3 - 1, middle[1] + i / 3 % 3 - 1, middle[2] + i / 9 - 1});
+          cells_.find({middle[0] + step(i), middle[1] + step(i / 3), middle[2] + step(i / 9)});
       if (cell == cells_.end()) continue;
       const std::size_t looked_at = std::min(cell->second.size(), kMostBeside);
       for (std::size_t k = 0; k < looked_at; ++k) {
