@@ -27,6 +27,7 @@ struct Facts {
   std::uintmax_t bytes = 0;
   std::size_t primitives = 0;
   Eigen::Index vertices = 0;
+  int node = 0;
   Eigen::Index triangles = 0;
   std::vector<TargetFacts> targets;
   int moving_vertices = 0;  ///< by any target
@@ -38,9 +39,10 @@ struct Facts {
 };
 
 /// The health of the mesh as a source, at rest.
-std::variant<MeshHealth, Problem> find_health(const GltfFile& file, const Observer& observer) {
+std::variant<MeshHealth, Problem> find_health(const GltfFile& file, int node,
+                                              const Observer& observer) {
   try {
-    return examine_mesh(read_source("mesh", file), observer);
+    return examine_mesh(read_source("mesh", file, {.node = node}), observer);
   } catch (const BakeError& error) {
     return error.problems().front();
   }
@@ -64,11 +66,13 @@ void count_motion(const AnimatedPrimitive& primitive, Facts& facts) {
   for (const bool does_move : moves) facts.moving_vertices += does_move ? 1 : 0;
 }
 
-Facts find_facts(const std::filesystem::path& file, const Observer& observer) {
+Facts find_facts(const std::filesystem::path& file, const NameOrIndex& node,
+                 const Observer& observer) {
   const GltfFile document = open_gltf(file);
-  const AnimatedMesh mesh = read_animated_mesh(document);
+  const AnimatedMesh mesh = read_animated_mesh(document, {.node = node});
   Facts facts;
-  facts.health = find_health(document, observer);
+  facts.node = mesh.node;
+  facts.health = find_health(document, mesh.node, observer);
   facts.file = file;
   std::error_code ignored;  // the file was read above
   facts.bytes = std::filesystem::file_size(file, ignored);
@@ -119,6 +123,7 @@ std::string as_json(const Facts& facts) {
   Json json;
   json["file"] = facts.file.string();
   json["bytes"] = facts.bytes;
+  json["node"] = facts.node;
   json["primitives"] = facts.primitives;
   json["vertices"] = facts.vertices;
   json["triangles"] = facts.triangles;
@@ -145,8 +150,8 @@ void print_facts(const Facts& facts, Terminal& terminal) {
   const Eigen::Vector3d low = facts.bounds.min();
   const Eigen::Vector3d high = facts.bounds.max();
   terminal.result(fmt::format("file        {} ({} bytes)", facts.file.string(), facts.bytes));
-  terminal.result(fmt::format("mesh        {} primitives, {} vertices, {} triangles",
-                              facts.primitives, facts.vertices, facts.triangles));
+  terminal.result(fmt::format("mesh        of node {}: {} primitives, {} vertices, {} triangles",
+                              facts.node, facts.primitives, facts.vertices, facts.triangles));
   terminal.result(fmt::format("bounds      ({:.4g}, {:.4g}, {:.4g}) to ({:.4g}, {:.4g}, {:.4g})",
                               low.x(), low.y(), low.z(), high.x(), high.y(), high.z()));
   terminal.result(fmt::format("motion      {} vertices move, by {:.4g} at most",
@@ -173,6 +178,7 @@ void print_facts(const Facts& facts, Terminal& terminal) {
 Command add_inspect(CLI::App& program) {
   struct Arguments {
     std::filesystem::path file;
+    std::string node;
     bool json = false;
   };
 
@@ -180,13 +186,15 @@ Command add_inspect(CLI::App& program) {
   CLI::App* parser = program.add_subcommand(
       "inspect", "Show the targets, sizes, bounds and mesh health of a glTF");
   parser->add_option("FILE", arguments->file, "A .glb or .gltf file")->required();
+  add_node(*parser, arguments->node);
   parser->add_flag("--json", arguments->json, "The same as JSON");
   parser->footer(
       "\nHealth is what a bake mends, warns of or refuses in the mesh; looking through a million\n"
       "triangles takes some seconds.\n"
       "\nExample: morphbake inspect morph.glb --json");
   return {parser, [arguments](Terminal& terminal) {
-            const Facts facts = find_facts(arguments->file, terminal.observer());
+            const Facts facts =
+                find_facts(arguments->file, node_choice(arguments->node), terminal.observer());
             if (arguments->json) return terminal.result(as_json(facts));
             print_facts(facts, terminal);
           }};

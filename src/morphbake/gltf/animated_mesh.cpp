@@ -175,6 +175,7 @@ AnimatedMesh read_animated_mesh(const GltfFile& file, const MeshChoice& choice) 
   const tinygltf::Mesh& source = document.model.meshes[static_cast<std::size_t>(at.mesh)];
   const std::size_t targets = target_count(document, at.mesh);
   AnimatedMesh mesh;
+  mesh.node = at.node;
   mesh.to_scene = at.to_scene;
   UsedImages images;
   for (std::size_t p = 0; p < source.primitives.size(); ++p) {

@@ -43,6 +43,7 @@ struct AnimatedPrimitive {
 
 /// A node's mesh with its morph targets and their weights animation: what a viewer plays.
 struct AnimatedMesh {
+  int node = 0;  ///< of the file
   std::vector<AnimatedPrimitive> primitives;
   Eigen::Matrix4d to_scene = Eigen::Matrix4d::Identity();  ///< global transform of the node
   std::vector<std::string> target_names;  ///< one a target, "" when the file names none
