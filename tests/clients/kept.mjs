@@ -5,11 +5,13 @@ import { readAccessor } from './reference/glb.mjs';
 import { openPlain } from './reference/plain.mjs';
 
 const FLOAT = 5126;
+const STEPS = { 5120: 1.01 / 127, 5122: 1.01 / 32767 };  // of filtered normals and rotations
 const PACKED = ['EXT_meshopt_compression', 'KHR_draco_mesh_compression'];
 
 /**
  * What of the source the output lacks or has changed beyond what a bake in `shared` mode may change: the generator;
- * targets, names, weights and a clip at the end of their lists; zeros for the new targets in what weighs the old ones;
+ * targets, names, weights and a clip at the end of their lists; zeros for the new targets in what weighs the old ones,
+ * and zeros in old targets for attributes that the new ones have (clients want all targets alike);
  * buffers joined, images taken in, Draco and meshopt unpacked, wrong bounds put right.
  *
  * @param node        index of the node that morphs
@@ -31,7 +33,7 @@ export function compareDocuments(before, after, { node, startsThere = true, clip
   const weighed = unpadWeights({ before, after }, subject);
   takeAddedClips(subject, clips);
   takeWeightSamplers(subject);
-  takeAddedTargets(subject);
+  takeAddedTargets(subject, after);
   const moved = startsThere ? new Set() : allowOtherStart(subject);
   takeTail(subject, new Set([...weighed, ...moved]), before.unpacked);
   takeRightBounds(subject.before, after, left);
@@ -136,11 +138,13 @@ function takeAddedClips({ before, after, node, lost }, clips) {
 }
 
 /** Cuts what was added to the mesh and to the nodes that show it. */
-function takeAddedTargets({ before, after, mesh, lost }) {
+function takeAddedTargets({ before, after, mesh, lost }, plain) {
   const [was, is] = [before.meshes[mesh], after.meshes?.[mesh]];
   if (!is) return;
   const old = targetCount(before, mesh);
   const added = (is.primitives ?? []).map((primitive) => cut(primitive, 'targets', old, old > 0).length);
+  was.primitives.forEach(({ targets = [] }, p) => targets.forEach((target, k) =>
+    takeZeros(target, is.primitives?.[p]?.targets?.[k], plain)));
   if (new Set(added).size > 1) lost.push(`/meshes/${mesh}: primitives got ${added} targets`);
   const all = old + (added[0] ?? 0);
   const weights = cut(is, 'weights', old, was.weights);
@@ -153,6 +157,11 @@ function takeAddedTargets({ before, after, mesh, lost }) {
     if (tail.some((w) => w !== 0) || (node.weights && tail.length !== all - old))
       lost.push(`/nodes/${i}/weights: ${tail} added`);
   });
+}
+
+function takeZeros(before, after, plain) {
+  for (const [name, index] of Object.entries(after ?? {}))
+    if (!Object.hasOwn(before, name) && plain.json.accessors[index] && readAccessor(plain, index).every((x) => x === 0)) delete after[name];
 }
 
 function takeAddedNames(was, is, old, all, at, lost) {
@@ -289,7 +298,9 @@ function compareAccessors(before, after, changed, lost) {
   (before.json.accessors ?? []).forEach((accessor, i) => {
     if (changed.has(i) || !after.json.accessors?.[i]) return;
     const [was, is] = [readAccessor(before, i), readAccessor(after, i)];
-    const first = was.findIndex((value, k) => value !== is[k] && !(Number.isNaN(value) && Number.isNaN(is[k])));
+    const slack = before.filtered.has(accessor.bufferView) ? STEPS[accessor.componentType] ?? 0 : 0;
+    const isSame = (value, k) => value === is[k] || Math.abs(value - is[k]) <= slack || (Number.isNaN(value) && Number.isNaN(is[k]));
+    const first = was.findIndex((value, k) => !isSame(value, k));
     if (was.length !== is.length || first >= 0)
       lost.push(`/accessors/${i}: value ${first} is ${is[first]}, was ${was[first]}`);
   });
@@ -304,7 +315,7 @@ function compareViews(before, after, changed, lost) {
   (before.json.bufferViews ?? []).forEach((_, i) => {
     const isFree = isOnlyOf(before.json, i, changed) &&
       [...changed].some((accessor) => before.json.accessors[accessor]?.bufferView === i);
-    if (isFree || !after.json.bufferViews?.[i]) return;
+    if (isFree || before.filtered.has(i) || !after.json.bufferViews?.[i]) return;
     if (!viewBytes(before, i).equals(viewBytes(after, i))) lost.push(`/bufferViews/${i}: other bytes`);
   });
 }

@@ -38,8 +38,9 @@ function bakeByHand(plain, node) {
 
 function addTarget(document, primitive) {
   const { count } = document.json.accessors[primitive.attributes.POSITION];
-  const target = { POSITION: putPoints(document, Array.from({ length: count }, () => [1, 0, 0])) };
-  primitive.targets = [...(primitive.targets ?? []), target];
+  const rows = (row) => putPoints(document, Array.from({ length: count }, () => row));
+  for (const target of primitive.targets ?? []) target.NORMAL ??= rows([0, 0, 0]);
+  primitive.targets = [...(primitive.targets ?? []), { POSITION: rows([1, 0, 0]), NORMAL: rows([0, 0, 1]) }];
 }
 
 /** In place where only the mesh's channels read the weights, else by a sampler of their own. */
@@ -115,7 +116,7 @@ function tryBytes(name, before, after, node) {
   for (const [i, { bufferView, byteOffset = 0 }] of after.json.accessors.entries()) {
     if (i >= before.json.accessors.length || bufferView === undefined) continue;
     const changed = { ...after, bin: Uint8Array.from(after.bin) };
-    changed.bin[after.json.bufferViews[bufferView].byteOffset + byteOffset] ^= 1;
+    changed.bin[after.json.bufferViews[bufferView].byteOffset + byteOffset] ^= 4;
     checks.check(isFound(before, changed, node), `${name}: a bit of accessor ${i}: not found`);
   }
   for (const i of before.images.keys()) {
@@ -135,6 +136,7 @@ const ADDED = {
   'an old target gone': (json) => { json.meshes[0].primitives[0].targets.shift(); },
   'the new target first': (json) => { json.meshes[0].primitives[0].targets.unshift(json.meshes[0].primitives[0].targets.pop()); },
   'the new name first': (json) => { json.meshes[0].extras.targetNames.unshift(json.meshes[0].extras.targetNames.pop()); },
+  'normals in an old target': (json) => { const [old, added] = json.meshes[0].primitives[0].targets.slice(-2); old.NORMAL = added.NORMAL; },
   'a name too few': (json) => { json.meshes[0].extras.targetNames.pop(); },
   'a weight too few': (json) => { json.meshes[0].weights.pop(); },
   'weights of a node that were not padded': (json) => { json.nodes[0].weights.pop(); },

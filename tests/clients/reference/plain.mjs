@@ -14,7 +14,8 @@ const GLB = 0x46546c67;
  *
  * @return json: its JSON as after unpacking: bufferViews lie in one buffer (`bin`), meshopt and Draco are gone with
  *         their names, images have no uri; bin; images: bytes of each; written: the JSON as it stands in the file;
- *         unpacked: indices of the accessors whose values came out of Draco
+ *         unpacked: indices of the accessors whose values came out of Draco; filtered: of the views whose values a
+ *         filter of meshopt made, which decoders round differently
  */
 export async function openPlain(file) {
   const bytes = readFileSync(file);
@@ -23,13 +24,14 @@ export async function openPlain(file) {
   const json = structuredClone(written);
   const buffers = (json.buffers ?? []).map(({ uri, byteLength }, i) =>
     (uri === undefined ? (i === 0 && bin) || new Uint8Array(byteLength) : resolveUri(uri, path.dirname(file))));
+  const filtered = new Set((json.bufferViews ?? []).flatMap(({ extensions }, i) => (extensions?.[MESHOPT]?.filter ? [i] : [])));
   const views = [];
   for (const view of json.bufferViews ?? []) views.push(await readView(view, buffers));
   const images = (json.images ?? []).map(({ uri, bufferView }) =>
     (uri === undefined ? views[bufferView] : resolveUri(uri, path.dirname(file))));
   const unpacked = await unpackDraco(json, views);
   for (const image of json.images ?? []) delete image.uri;
-  return { json: Object.assign(json, forgetUnpacked(json)), bin: joinViews(json, views), images, written, unpacked };
+  return { json: Object.assign(json, forgetUnpacked(json)), bin: joinViews(json, views), images, written, unpacked, filtered };
 }
 
 /** Bytes of a `data:` URI or of a file beside the glTF. */
