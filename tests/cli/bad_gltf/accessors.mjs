@@ -21,6 +21,8 @@ const buffers = {
   'view of no bytes': [set('bufferViews.0.byteLength', 0), 'gltf.'],
   'view without a buffer': [set('bufferViews.0.buffer', undefined), '#/bufferViews/0', '[gltf.missing-field]'],
   'view of a missing buffer': [set('bufferViews.0.buffer', 7), '#/bufferViews/0/buffer', '[gltf.invalid]'],
+  'unused view of a missing buffer': [(g) => { g.bufferViews.push({ buffer: 3, byteLength: 48 }); }, '#/bufferViews/3/buffer', '[gltf.invalid]'],
+  'unused view beyond its buffer': [(g) => { g.bufferViews.push({ buffer: 0, byteOffset: 190, byteLength: 48 }); }, '#/bufferViews/3', '[gltf.invalid]'],
   'view of buffer -1': [set('bufferViews.0.buffer', -1), '#/bufferViews/0/buffer', OUT_OF_RANGE],
   'stride of zero': [set('bufferViews.0.byteStride', 0), '#/bufferViews/0/byteStride', OUT_OF_RANGE],
   'stride of one': [set('bufferViews.0.byteStride', 1), '#/bufferViews/0/byteStride', OUT_OF_RANGE],
