@@ -95,16 +95,16 @@ async function check(name, command, [change, ...texts], { choice, mayBeRead = fa
   const done = await run(name, folder, words[command](folder));
   const problems = [...done.problems];
   if (done.status === 0 && mayBeRead) return problems;
-  const names = texts.some((text) => text.includes('connectivity.')) ? 'good.gltf' : 'bad.gltf';  // the second differs
+  // Of two sources that differ the second is named, and a picture shows where.
+  const differs = texts.some((text) => text.includes('connectivity.'));
+  const names = differs ? 'good.gltf' : 'bad.gltf';
   problems.push(...texts.concat(names).filter((text) => !done.stderr.includes(text))
     .map((text) => `stderr does not say ${JSON.stringify(text)}`));
   if (done.status === 0) problems.push('it was read');
   if (mayBeRead && !TOO_MUCH.test(done.stderr)) problems.push('it was refused, and not for its size');
   if (/[\x00-\x08\x0b-\x1f\x7f]/.test(done.stderr)) problems.push('stderr has control characters');
   if (done.stderr.length > 100000) problems.push(`stderr has ${done.stderr.length} characters`);
-  // Sources that are not connected alike leave a picture of it (mismatch.mjs); nothing else may appear.
-  const left = filesBelow(folder).filter((file) => !file.name.endsWith('.mismatch.png'));
-  if (left.length !== before) problems.push('something was left behind');
+  if (filesBelow(folder).filter(({ name }) => !differs || !name.endsWith('.png')).length !== before) problems.push('something was left behind');
   if (inspected) problems.push(...(await run(name, folder, words.inspect(folder))).problems);
   return problems.length ? [...problems, done.stderr.trim().slice(0, 2000)] : [];
 }

@@ -60,7 +60,10 @@ void read_all(const std::string& bytes, const std::filesystem::path& name) {
   const GltfFile file = open_gltf_bytes(bytes, name);
   const bool is_playable = succeeds([&] { read_animated_mesh(file); });
   const SourceMesh source = read_source("source", file);
-  succeeds([&] { source_surface(source, {"source", name, {}, {}}, {}); });
+  SourceRef ref;
+  ref.name = "source";
+  ref.file = name;
+  succeeds([&] { source_surface(source, ref, {}); });
   succeeds([&] { share_connectivity({source, source}); });
   const std::string written = write_morph_glb(file, still_morph(source.geometry), "fuzz");
   GltfFile again;

@@ -136,7 +136,11 @@ UnpackedPrimitive unpack_draco(const GltfDocument& document, std::string_view pa
   const std::unique_ptr<draco::Mesh> mesh = std::move(decoded).value();
   UnpackedPrimitive primitive;
   for (draco::FaceIndex f(0); f < mesh->num_faces(); ++f) {
-    for (const draco::PointIndex& point : mesh->face(f)) primitive.indices.push_back(point.value());
+    for (const draco::PointIndex& point : mesh->face(f)) {
+      if (point.value() >= mesh->num_points())
+        fail(place, "a triangle has a point that is not there");
+      primitive.indices.push_back(point.value());
+    }
   }
   if (primitive.indices.size() != indices) fail(place, "the data has fewer triangles than it says");
   for (const PackedAttribute& attribute : attributes) {

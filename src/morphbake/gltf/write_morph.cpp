@@ -233,6 +233,11 @@ void extend_animation(Writing& writing, int index) {
   std::map<std::size_t, std::size_t> extended_samplers;  // old -> extended
   for (Json& channel : animation["channels"]) {
     if (!moves_mesh(document, channel, morph.mesh)) continue;
+    if (own_targets == 0) {
+      fail_at(document, fmt::format("/animations/{}", index), "gltf.invalid",
+              "the animation moves weights of a mesh that has no morph targets",
+              "export the file again, or without that animation");
+    }
     const auto old = channel["sampler"].get<std::size_t>();
     if (old >= animation["samplers"].size()) {
       fail_at(document, fmt::format("/animations/{}/samplers/{}", index, old), "gltf.invalid",
@@ -319,8 +324,7 @@ std::string write_morph_glb(const GltfFile& source, const MeshMorph& morph,
     }
     name_targets(writing);
     extend_weights(writing);
-    const std::size_t own_animations = document.model.animations.size();
-    for (std::size_t a = 0; writing.own_targets > 0 && a < own_animations; ++a) {
+    for (std::size_t a = 0; a < document.model.animations.size(); ++a) {
       extend_animation(writing, static_cast<int>(a));
     }
     append_animation(writing);

@@ -25,7 +25,7 @@ const glb = {
   'glb that says 4 GB': [(g) => container([jsonChunk(g)], { length: 0xffffffff }), '[gltf.truncated]'],
   'JSON chunk of 4 GB': [(g) => container([['JSON', jsonChunk(g)[1], 0xffffffff]]), '[gltf.truncated]'],
   'JSON chunk longer by 4': [(g) => container([['JSON', jsonChunk(g)[1], jsonChunk(g)[1].length + 4]]), '[gltf.truncated]'],
-  'BIN chunk of 4 GB': [(g) => { const { json, bin } = binaryOctahedron(g); return container([json, [...bin, 0xfffffffc]]); }, '[gltf.invalid]'],
+  'BIN chunk of 4 GB': [(g) => { const { json, bin } = binaryOctahedron(g); return container([json, [...bin, 0xfffffffc]]); }, '[gltf.truncated]'],
   'BIN chunk longer by 4': [(g) => { const { json, bin } = binaryOctahedron(g); return container([json, [...bin, bin[1].length + 4]]); }, '[gltf.truncated]'],
   'BIN chunk longer by 8': [(g) => { const { json, bin } = binaryOctahedron(g); return container([json, [...bin, bin[1].length + 8]]); }, '[gltf.truncated]'],
   'BIN chunk shorter than its buffer': [(g) => { const { json, bin } = binaryOctahedron(g); return container([json, ['BIN\0', bin[1].subarray(0, 96)]]); }, '[gltf.invalid]'],

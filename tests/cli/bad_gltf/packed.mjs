@@ -65,7 +65,7 @@ export const dracoCases = {
   'Draco of a hundred million points': spoilt({ points: 100000000 }),
   'Draco of a hundred million points, as its accessor says': [draco(dracoBlob({ points: 100000000 }), (e, g) => { g.accessors[0].count = 100000000; }), 'gltf.'],
   'Draco of packed indices that are none': spoilt({ connectivity: 0 }),
-  'Draco index out of range': spoilt({ indices: new Array(24).fill(77) }),
+  'Draco index out of range': [draco(dracoBlob({ indices: new Array(24).fill(77) })), '#/meshes/0/primitives/0/indices', '[gltf.accessor]'],
   'Draco without attributes': spoilt({ decoders: 0 }),
   'Draco of four billion attributes': spoilt({ attributes: 4294967295 }),
   'Draco of 255 columns': spoilt({ columns: 255 }),
@@ -135,7 +135,7 @@ const refused = (change, code = '[gltf.meshopt]', view = 0) => [meshopt(change),
 const OUT_OF_RANGE = '[gltf.out-of-range]';
 
 export const meshoptCases = {
-  'meshopt of more vertices': refused(([v], g) => { v.count = 60; g.bufferViews[0].byteLength = 720; g.buffers[0].byteLength = 768; }),
+  'meshopt of more vertices': refused(([v], g) => { v.count = 6000; g.bufferViews[0].byteLength = 72000; g.buffers[0].byteLength = 72048; g.bufferViews[1].byteOffset = 72000; }),
   'meshopt of other vertices than its view': refused(([v]) => { v.count = 5; }, 'gltf.'),
   'meshopt of two billion vertices': [meshopt(([v]) => { v.count = 2 ** 31; }), 'gltf.'],
   'meshopt of four billion vertices and bytes': [meshopt(([v], g) => {
