@@ -101,7 +101,7 @@ Positions points_of(const Subject& subject, const std::vector<int>& shown,
 AnimatedMesh mesh_of(const Subject& subject, const std::vector<int>& shown,
                      const Positions& points) {
   AnimatedMesh mesh;
-  mesh.key_weights = Eigen::MatrixXf::Zero(1, 0);
+  mesh.weights.values = Eigen::MatrixXf::Zero(1, 0);
   for (const bool is_unlike : {false, true}) {
     std::vector<Eigen::Index> rows;
     for (std::size_t i = 0; i < shown.size(); ++i) {

@@ -2,6 +2,9 @@
 
 // Internal to gltf/: what a GltfFile holds.
 
+// Images are kept as they are: tinygltf's own coders are not compiled in.
+#define TINYGLTF_NO_STB_IMAGE
+#define TINYGLTF_NO_STB_IMAGE_WRITE
 #include <tiny_gltf.h>
 
 #include <filesystem>

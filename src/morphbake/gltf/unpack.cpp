@@ -163,6 +163,7 @@ void give_indices(Unpacking& at, const std::vector<std::uint32_t>& indices, std:
   at.draft.views[view]["target"] = 34963;  // ELEMENT_ARRAY_BUFFER
   accessor["bufferView"] = view;
   accessor.erase("byteOffset");
+  for (const char* bound : {"min", "max"}) accessor.erase(bound);  // of indices none are needed
 }
 
 void unpack_primitive(Unpacking& at, Json& primitive, const std::string& owner,
