@@ -36,7 +36,7 @@ export function compareDocuments(before, after, { node, startsThere = true, clip
   takeAddedTargets(subject, after);
   const moved = startsThere ? new Set() : allowOtherStart(subject);
   takeTail(subject, new Set([...weighed, ...moved]), before.unpacked);
-  takeRightBounds(subject.before, after, left);
+  takeRightBounds(subject.before, after, left, before.unpacked);
   const kept = { ...subject.before, images: takeImages(before, after, left, lost) };
   for (const json of [kept, left]) forgetAllowed(json);
   differences(kept, left, '', lost);
@@ -234,10 +234,12 @@ function takeOver(from, to, keys) {
 const isOnlyOf = (json, view, accessors) =>
   json.accessors.every((accessor, i) => accessor.bufferView !== view || accessors.has(i));
 
-/** Lets bounds that the source tells wrongly be right. */
-function takeRightBounds(before, after, left) {
+/** Lets bounds that the source tells wrongly be right, or those that came out of Draco be gone. */
+function takeRightBounds(before, after, left, unpacked) {
   (before.accessors ?? []).forEach((accessor, i) => {
     const is = left.accessors?.[i];
+    // Draco reorders vertices: what indices were bound by says nothing any more.
+    if (unpacked.has(i) && is && !is.min && !is.max) return takeOver(accessor, is, ['min', 'max']);
     if (!is?.min || !is.max || JSON.stringify([accessor.min, accessor.max]) === JSON.stringify([is.min, is.max])) return;
     const raw = { ...after.json, accessors: after.json.accessors.map((each) => ({ ...each, normalized: false })) };
     const values = readAccessor({ ...after, json: raw }, i);
