@@ -91,6 +91,24 @@ TEST(ReadRecipe, ResolvesNamesToIndices) {
   EXPECT_EQ(recipe.timeline.start, (Shares{0.25, 0.75}));
 }
 
+TEST(ReadRecipe, ASourceChoosesByNameOrIndex) {
+  const test::RecipeFolder folder;
+  const Recipe recipe = folder.read(
+      R"({"version": 1, "name": "n", "sources": {
+          "a": {"file": "a.glb", "node": "Body", "animation": {"time": 0.5}},
+          "b": {"file": "b.glb", "mesh": 2, "target": "2"}}, "timeline": )" +
+      one_track + "}");
+  const MeshChoice &a = recipe.sources[0].choice, &b = recipe.sources[1].choice;
+  EXPECT_EQ(a.node, NameOrIndex("Body"));
+  EXPECT_FALSE(is_chosen(a.mesh) || is_chosen(a.target));
+  ASSERT_TRUE(a.moment);
+  EXPECT_FALSE(is_chosen(a.moment->animation));
+  EXPECT_EQ(a.moment->time, 0.5);
+  EXPECT_EQ(b.mesh, NameOrIndex(2));
+  EXPECT_EQ(b.target, NameOrIndex("2"));  // a name, although it looks like an index
+  EXPECT_FALSE(b.moment);
+}
+
 TEST(ReadRecipe, TracksMayReferToLaterOnes) {
   const test::RecipeFolder folder;
   const Timeline timeline = folder
