@@ -4,7 +4,9 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <map>
 #include <numeric>
 #include <optional>
 #include <string>
@@ -138,9 +140,31 @@ void draw_sides(std::size_t triangles, const std::vector<SeenPoint>& points, Ima
   for (const auto& [from, to] : lines) draw_line(picture, from, to, 1, kEdge);
 }
 
+/// One triangle of those over the same three points, one that differs if there is one: a ray that
+/// meets thousands of them at one place looks at each.
+std::vector<int> one_of_each(const Subject& subject, const std::vector<int>& triangles) {
+  std::map<std::array<int, 3>, int> chosen;
+  for (const int f : triangles) {
+    std::array<int, 3> points{};
+    for (int k = 0; k < 3; ++k) {
+      const auto render = static_cast<std::size_t>(subject.source.triangles(f, k));
+      points[static_cast<std::size_t>(k)] = subject.source.welded[render];
+    }
+    std::sort(points.begin(), points.end());
+    const auto [entry, is_new] = chosen.try_emplace(points, f);
+    const bool differs = std::binary_search(subject.unlike.begin(), subject.unlike.end(), f);
+    if (!is_new && differs) entry->second = f;
+  }
+  std::vector<int> once;
+  for (const auto& [points, f] : chosen) once.push_back(f);
+  std::sort(once.begin(), once.end());
+  return once;
+}
+
 /// Some triangles of a source, and rings around the places.
-Image picture_of(const Subject& subject, const std::vector<int>& shown, const Eigen::Matrix3d& turn,
-                 const BakeOptions& options) {
+Image picture_of(const Subject& subject, const std::vector<int>& triangles,
+                 const Eigen::Matrix3d& turn, const BakeOptions& options) {
+  const std::vector<int> shown = one_of_each(subject, triangles);
   TurntableOptions look = options.turntable;
   look.threads = options.threads;
   look.width = look.height = kCell;

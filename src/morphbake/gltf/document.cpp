@@ -137,6 +137,25 @@ void check_fields(const GltfDocument& document) {
   if (!problems.empty()) throw BakeError(std::move(problems));
 }
 
+/// Images have bytes: by a URI or in a bufferView.
+void check_images(const GltfDocument& document) {
+  const auto images = document.json.find("images");
+  const auto views = document.json.find("bufferViews");
+  const std::size_t count = views == document.json.end() ? 0 : views->size();
+  for (std::size_t i = 0; images != document.json.end() && i < images->size(); ++i) {
+    const Json& image = (*images)[i];
+    const std::string pointer = array_pointer("images", i);
+    if (image.contains("uri")) continue;
+    if (!image.contains("bufferView")) {
+      fail_at(document, pointer, "gltf.invalid", "the image has neither uri nor bufferView");
+    }
+    if (image["bufferView"].get<std::size_t>() < count) continue;
+    fail_at(document, pointer + "/bufferView", "gltf.invalid",
+            fmt::format("bufferView {} does not exist; the file has {}", image["bufferView"].dump(),
+                        count));
+  }
+}
+
 /// bufferViews lie in their buffers.
 void check_views(const GltfDocument& document) {
   const Json& json = document.json;
@@ -147,6 +166,10 @@ void check_views(const GltfDocument& document) {
   const Json& buffers = found == json.end() ? none : *found;
   for (std::size_t v = 0; v < views->size(); ++v) {
     const Json& view = (*views)[v];
+    if (view.value("byteStride", 4) % 4 != 0) {
+      fail_at(document, array_pointer("bufferViews", v) + "/byteStride", "gltf.invalid",
+              fmt::format("byteStride is {}, not a multiple of 4", view["byteStride"].dump()));
+    }
     const auto buffer = view.at("buffer").get<std::size_t>();
     if (buffer >= buffers.size()) {
       fail_at(document, array_pointer("bufferViews", v) + "/buffer", "gltf.invalid",
@@ -330,6 +353,7 @@ GltfFile open_gltf_bytes(const std::string& bytes, const fs::path& name) {
   check_uris(*document, "buffers");
   check_uris(*document, "images");
   check_views(*document);
+  check_images(*document);
   check_buffer_sizes(*document, bytes.size());
   const std::string_view binary = binary_chunk(*document, bytes);
   if (is_packed(document->json)) {

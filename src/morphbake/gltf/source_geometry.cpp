@@ -48,15 +48,15 @@ Eigen::VectorXd chosen_weights(const GltfDocument& document, const SourceGeometr
   return weights;
 }
 
-/// Adds weighted targets to a primitive's base shape.
+/// Adds weighted targets to a primitive's base shape. All are read, since all are kept.
 void add_targets(const GltfDocument& document, const tinygltf::Primitive& primitive,
                  const Eigen::VectorXd& weights, const std::string& pointer,
                  PrimitiveGeometry& geometry) {
   for (std::size_t t = 0; t < primitive.targets.size(); ++t) {
-    const auto weight = static_cast<float>(weights(static_cast<Eigen::Index>(t)));
-    if (weight == 0) continue;
     const TargetGeometry target =
         read_target(document, primitive, t, geometry.positions.rows(), pointer);
+    const auto weight = static_cast<float>(weights(static_cast<Eigen::Index>(t)));
+    if (weight == 0) continue;
     if (target.positions.rows() > 0) geometry.positions += weight * target.positions;
     if (target.normals.rows() > 0 && geometry.normals.rows() > 0) {
       geometry.normals += weight * target.normals;
