@@ -19,7 +19,8 @@ set(OWNERS
     "^(suitesparse|Spectra)/=linear"
     "^OpenImageIO/=images"
     "^embree[34]/=preview"
-    "^meshoptimizer\\.h$=export"
+    "^meshoptimizer\\.h$=gltf export"
+    "^draco/=gltf"
     "^CLI/=cli"
     "^(fcntl|unistd|signal|sys/.*)(\\.h)?$=files cli")
 

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "character.h"
 #include "glb.h"
 #include "landmarks.h"
 #include "mesher.h"
@@ -19,21 +20,21 @@ namespace {
 
 using namespace shapes;
 
-void stand_on_floor(Mesh& mesh) {
-  mesh.positions.col(1).array() -= mesh.positions.col(1).minCoeff();
-  round_to_float(mesh.positions);
-}
-
-void write(const std::filesystem::path& folder, const std::string& name, Mesh mesh,
-           const std::vector<Landmark>& landmarks, Topology topology = Topology::Sphere) {
-  stand_on_floor(mesh);
-  check(mesh, name, topology);
-  write_glb(folder / (name + ".glb"), name, mesh);
+void write(const std::filesystem::path& folder, const std::string& name, const Mesh& mesh,
+           const Model& model, const std::vector<Landmark>& landmarks) {
+  write_glb(folder / (name + ".glb"), name, model);
   write_landmarks(folder / (name + ".landmarks.json"), mesh, landmarks);
   const AngleReport quality = angles(mesh);
   std::printf("%-18s %6td vertices %6td faces, smallest angle %3.0f degrees, %.2f %% below 15\n",
               name.c_str(), mesh.positions.rows(), mesh.triangles.rows(), quality.smallest,
               100 * quality.below_15);
+}
+
+void write_painted(const std::filesystem::path& folder, const std::string& name, Mesh mesh,
+                   const std::vector<Landmark>& landmarks, Topology topology = Topology::Sphere) {
+  stand_on_floor(mesh);
+  check(mesh, name, topology);
+  write(folder, name, mesh, painted_model(mesh), landmarks);
 }
 
 /// Meshes the base; its variants get the same triangles and landmarks.
@@ -42,16 +43,21 @@ void write_family(const std::filesystem::path& folder, const Family& family) {
   const Topology topology = base.cut_z ? Topology::Disk : Topology::Sphere;
   const Mesh mesh = mesh_surface(base);
   const std::vector<Landmark> landmarks = find_landmarks(mesh, base.landmarks);
-  write(folder, base.name, mesh, landmarks, topology);
+  write_painted(folder, base.name, mesh, landmarks, topology);
   for (const Variant& variant : family.variants)
-    write(folder, variant.name, varied(mesh, base, variant), landmarks, topology);
+    write_painted(folder, variant.name, varied(mesh, base, variant), landmarks, topology);
 }
 
 void write_bars(const std::filesystem::path& folder) {
   const std::vector<NamedMesh> pair = bars();
   const std::vector<Landmark> ends =
       find_landmarks(pair.front().mesh, {{"bottom", {0, -1, 0}}, {"top", {0, 2, 0}}});
-  for (const NamedMesh& bar : pair) write(folder, bar.name, bar.mesh, ends);
+  for (const NamedMesh& bar : pair) write_painted(folder, bar.name, bar.mesh, ends);
+}
+
+void write_foxes(const std::filesystem::path& folder) {
+  for (const Dressed& fox : dressed(foxes()))
+    write(folder, fox.name, fox.mesh, fox.model, fox.landmarks);
 }
 
 }  // namespace
@@ -68,6 +74,7 @@ int main(int argc, char** argv) {
                                        {cow()}, {pig()},     faces(),   creatures()};
     for (const Family& family : families)
       if (wanted(family.base.name)) write_family(folder, family);
+    if (wanted("fox")) write_foxes(folder);
     if (wanted("bar_straight")) write_bars(folder);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "morphbake_shapes: %s\n", error.what());

@@ -23,6 +23,11 @@ double corner_angle(const Mesh& mesh, Eigen::Index f, int corner) {
 
 void round_to_float(Rows3d& rows) { rows = rows.cast<float>().cast<double>().eval(); }
 
+void stand_on_floor(Mesh& mesh) {
+  mesh.positions.col(1).array() -= mesh.positions.col(1).minCoeff();
+  round_to_float(mesh.positions);
+}
+
 Rows3d vertex_normals(const Mesh& mesh) {
   Rows3d normals = Rows3d::Zero(mesh.positions.rows(), 3);
   for (Eigen::Index f = 0; f < mesh.triangles.rows(); ++f) {

@@ -18,6 +18,9 @@ struct Mesh {
 /// Rounds to what the file can hold.
 void round_to_float(Rows3d& rows);
 
+/// Moves the lowest vertex to y = 0.
+void stand_on_floor(Mesh& mesh);
+
 /// Unit normals, each face weighted by its angle at the vertex.
 Rows3d vertex_normals(const Mesh& mesh);
 

@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "character.h"
 #include "mesh.h"
 #include "solid.h"
 #include "variants.h"
@@ -20,6 +21,8 @@ Solid pig();
 
 Family faces();      // face, face_long_nose, face_short_nose
 Family creatures();  // creature_base, creature_thin, creature_stout
+
+std::vector<Look> foxes();  // fox, fennec
 
 struct NamedMesh {
   std::string name;

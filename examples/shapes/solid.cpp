@@ -37,21 +37,9 @@ double joined(double value, const Join& join, double d) {
   return join.carve ? -smooth_min(-value, d, join.blend) : smooth_min(value, d, join.blend);
 }
 
-/// Colours follow the same running blend as the surface, so that a part shows exactly where it
-/// comes out of the others. They change within half an edge either way: sharp, but no staircase.
-Vector skin_color(const Solid& solid, const Vector& p) {
-  const double marked = solid.pattern ? solid.pattern(p) : 0;
-  const double sharpness = edge_length(solid, p) / 2;
-  Vector result = Vector::Zero();
-  double value = 1e3;
-  for (const Part& part : solid.parts) {
-    const double d = distance(part.form, p);
-    const double lead = part.join.carve ? -d - value : value - d;
-    const Vector own = part.skin.plain + marked * (part.skin.marked - part.skin.plain);
-    result += smooth_step(-sharpness, sharpness, lead) * (own - result);
-    value = joined(value, part.join, d);
-  }
-  return result;
+/// How far a part comes out of the blend before it; negative where it is hidden inside.
+double lead(const Join& join, double value, double d) {
+  return join.carve ? -d - value : value - d;
 }
 
 }  // namespace
@@ -97,14 +85,34 @@ double field(const Solid& solid, const Vector& p) {
   return value;
 }
 
-Vector color(const Solid& solid, const Vector& p) {
-  Vector result = skin_color(solid, p);
+// Colours follow the same running blend as the surface, so that a part shows exactly where it comes
+// out of the others. They change within half an edge either way: sharp, but no staircase.
+Vector skin_color(const Solid& solid, const Vector& p) {
+  const double marked = solid.pattern ? solid.pattern(p) : 0;
+  const double sharpness = edge_length(solid, p) / 2;
+  Vector result = Vector::Zero();
+  double value = 1e3;
+  for (const Part& part : solid.parts) {
+    const double d = distance(part.form, p);
+    const Vector own = part.skin.plain + marked * (part.skin.marked - part.skin.plain);
+    result += smooth_step(-sharpness, sharpness, lead(part.join, value, d)) * (own - result);
+    value = joined(value, part.join, d);
+  }
+  return result;
+}
+
+Vector painted(const Solid& solid, const Vector& p, const Vector& ground) {
+  Vector result = ground;
   for (const Paint& paint : solid.paints) {
     const double share = 1 - smooth_step(paint.radius - paint.soft, paint.radius + paint.soft,
                                          (p - paint.centre).norm());
     result += share * (paint.color - result);
   }
   return result;
+}
+
+Vector color(const Solid& solid, const Vector& p) {
+  return painted(solid, p, skin_color(solid, p));
 }
 
 double edge_length(const Solid& solid, const Vector& p) {
@@ -115,6 +123,17 @@ double edge_length(const Solid& solid, const Vector& p) {
       length = std::min(
           length, part.join.detail * solid.edge + growth * std::max(0.0, distance(part.form, p)));
   return length;
+}
+
+const Part& part_at(const Solid& solid, const Vector& p) {
+  const Part* shown = &solid.parts.front();
+  double value = 1e3;
+  for (const Part& part : solid.parts) {
+    const double d = distance(part.form, p);
+    if (lead(part.join, value, d) > 0) shown = &part;
+    value = joined(value, part.join, d);
+  }
+  return *shown;
 }
 
 Vector on_surface(const Solid& solid, const Vector& p) { return newton(solid, p, {1, 1, 1}); }

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -14,9 +15,13 @@ namespace shapes {
 /// Linear colour from the sRGB number that a colour picker shows.
 Vector srgb(std::uint32_t rgb);
 
+/// What a skin is made of, where a model has more than one material.
+enum class Fabric { Fur, Wool, Gloss };
+
 struct Skin {
   Vector plain;
   Vector marked;  // where the solid's pattern is 1
+  Fabric fabric = Fabric::Fur;
 };
 
 /// How a form joins the forms before it.
@@ -55,8 +60,9 @@ struct Solid {
   std::vector<Paint> paints = {};
   std::vector<LandmarkHint> landmarks = {};
   std::function<double(const Vector&)> pattern = {};  // 0 plain .. 1 marked
-  std::optional<double> floor_blend = {};  // flat soles on y = 0, their rim rounded so wide
-  std::optional<double> cut_z = {};        // only the surface in front of this plane is kept
+  std::optional<double> floor_blend = {};     // flat soles on y = 0, their rim rounded so wide
+  std::optional<double> cut_z = {};           // only the surface in front of this plane is kept
+  std::map<std::string, Vector> fronts = {};  // which way a group's front looks, if not to +Z
 };
 
 void add(Solid& solid, const Form& form, const Skin& skin, const Join& join = {});
@@ -69,8 +75,13 @@ void mark_pair(Solid& solid, const std::string& name, const Vector& near);
 
 /// Signed distance (to first order) to the blended surface, negative inside.
 double field(const Solid& solid, const Vector& p);
+/// Colour of the skins alone, and that with the solid's paints over any ground.
+Vector skin_color(const Solid& solid, const Vector& p);
+Vector painted(const Solid& solid, const Vector& p, const Vector& ground);
 Vector color(const Solid& solid, const Vector& p);
 double edge_length(const Solid& solid, const Vector& p);
+/// The part whose surface, and colour, shows at p.
+const Part& part_at(const Solid& solid, const Vector& p);
 
 /// The point of the surface that following the gradient from p leads to.
 Vector on_surface(const Solid& solid, const Vector& p);

@@ -4,10 +4,14 @@
 #include <algorithm>
 #include <filesystem>
 #include <memory>
+#include <variant>
 
 #include "cli/commands.h"
+#include "cli/health_text.h"
+#include "morphbake/connectivity/mesh_health.h"
 #include "morphbake/gltf/animated_mesh.h"
 #include "morphbake/json/json.h"
+#include "morphbake/sources/source_mesh.h"
 
 namespace morphbake::cli {
 namespace {
@@ -23,14 +27,26 @@ struct Facts {
   std::uintmax_t bytes = 0;
   std::size_t primitives = 0;
   Eigen::Index vertices = 0;
+  int node = 0;
   Eigen::Index triangles = 0;
   std::vector<TargetFacts> targets;
   int moving_vertices = 0;  ///< by any target
   std::size_t keys = 0;
-  double duration = 0;         ///< seconds
-  Eigen::AlignedBox3d bounds;  ///< of the base shape in the scene
-  Eigen::Index gpu_bytes = 0;  ///< of the targets' texture in three.js
+  double duration = 0;                       ///< seconds
+  Eigen::AlignedBox3d bounds;                ///< of the base shape in the scene
+  Eigen::Index gpu_bytes = 0;                ///< of the targets' texture in three.js
+  std::variant<MeshHealth, Problem> health;  ///< or why the mesh can be no source
 };
+
+/// The health of the mesh as a source, at rest.
+std::variant<MeshHealth, Problem> find_health(const GltfFile& file, int node,
+                                              const Observer& observer) {
+  try {
+    return examine_mesh(read_source("mesh", file, {.node = node}), observer);
+  } catch (const BakeError& error) {
+    return error.problems().front();
+  }
+}
 
 /// Adds what the targets of one primitive move.
 void count_motion(const AnimatedPrimitive& primitive, Facts& facts) {
@@ -50,9 +66,13 @@ void count_motion(const AnimatedPrimitive& primitive, Facts& facts) {
   for (const bool does_move : moves) facts.moving_vertices += does_move ? 1 : 0;
 }
 
-Facts find_facts(const std::filesystem::path& file) {
-  const AnimatedMesh mesh = read_animated_mesh(file);
+Facts find_facts(const std::filesystem::path& file, const NameOrIndex& node,
+                 const Observer& observer) {
+  const GltfFile document = open_gltf(file);
+  const AnimatedMesh mesh = read_animated_mesh(document, {.node = node});
   Facts facts;
+  facts.node = mesh.node;
+  facts.health = find_health(document, mesh.node, observer);
   facts.file = file;
   std::error_code ignored;  // the file was read above
   facts.bytes = std::filesystem::file_size(file, ignored);
@@ -76,8 +96,8 @@ Facts find_facts(const std::filesystem::path& file) {
   for (std::size_t k = 0; k < mesh.target_names.size(); ++k) {
     facts.targets[k].name = mesh.target_names[k];
   }
-  facts.keys = mesh.key_times.size();
-  facts.duration = mesh.key_times.empty() ? 0 : mesh.key_times.back();
+  facts.keys = mesh.weights.times.size();
+  facts.duration = mesh.weights.times.empty() ? 0 : mesh.weights.times.back();
   return facts;
 }
 
@@ -103,6 +123,7 @@ std::string as_json(const Facts& facts) {
   Json json;
   json["file"] = facts.file.string();
   json["bytes"] = facts.bytes;
+  json["node"] = facts.node;
   json["primitives"] = facts.primitives;
   json["vertices"] = facts.vertices;
   json["triangles"] = facts.triangles;
@@ -114,6 +135,14 @@ std::string as_json(const Facts& facts) {
   json["bounds"]["min"] = to_json(facts.bounds.min());
   json["bounds"]["max"] = to_json(facts.bounds.max());
   json["gpu_bytes"] = facts.gpu_bytes;
+  if (const auto* health = std::get_if<MeshHealth>(&facts.health)) {
+    json["health"] = health_json(*health);
+  } else {
+    const auto& problem = std::get<Problem>(facts.health);
+    json["health"]["not_examined"] = {{"code", problem.code},
+                                      {"pointer", problem.location.pointer},
+                                      {"message", problem.message}};
+  }
   return json.dump(2, ' ', false, Json::error_handler_t::replace);
 }
 
@@ -121,8 +150,8 @@ void print_facts(const Facts& facts, Terminal& terminal) {
   const Eigen::Vector3d low = facts.bounds.min();
   const Eigen::Vector3d high = facts.bounds.max();
   terminal.result(fmt::format("file        {} ({} bytes)", facts.file.string(), facts.bytes));
-  terminal.result(fmt::format("mesh        {} primitives, {} vertices, {} triangles",
-                              facts.primitives, facts.vertices, facts.triangles));
+  terminal.result(fmt::format("mesh        of node {}: {} primitives, {} vertices, {} triangles",
+                              facts.node, facts.primitives, facts.vertices, facts.triangles));
   terminal.result(fmt::format("bounds      ({:.4g}, {:.4g}, {:.4g}) to ({:.4g}, {:.4g}, {:.4g})",
                               low.x(), low.y(), low.z(), high.x(), high.y(), high.z()));
   terminal.result(fmt::format("motion      {} vertices move, by {:.4g} at most",
@@ -135,6 +164,13 @@ void print_facts(const Facts& facts, Terminal& terminal) {
                                 target.name.empty() ? "(no name)" : target.name,
                                 target.moving_vertices, target.largest_displacement));
   }
+  if (const auto* health = std::get_if<MeshHealth>(&facts.health)) {
+    for (const std::string& line : health_lines(*health)) terminal.result(line);
+  } else {
+    const auto& problem = std::get<Problem>(facts.health);
+    terminal.result(
+        fmt::format("health      not examined: {} [{}]", problem.message, problem.code));
+  }
 }
 
 }  // namespace
@@ -142,17 +178,23 @@ void print_facts(const Facts& facts, Terminal& terminal) {
 Command add_inspect(CLI::App& program) {
   struct Arguments {
     std::filesystem::path file;
+    std::string node;
     bool json = false;
   };
 
   auto arguments = std::make_shared<Arguments>();
-  CLI::App* parser =
-      program.add_subcommand("inspect", "Show the targets, sizes and bounds of a glTF");
+  CLI::App* parser = program.add_subcommand(
+      "inspect", "Show the targets, sizes, bounds and mesh health of a glTF");
   parser->add_option("FILE", arguments->file, "A .glb or .gltf file")->required();
+  add_node(*parser, arguments->node);
   parser->add_flag("--json", arguments->json, "The same as JSON");
-  parser->footer("\nExample: morphbake inspect morph.glb --json");
+  parser->footer(
+      "\nHealth is what a bake mends, warns of or refuses in the mesh; looking through a million\n"
+      "triangles takes some seconds.\n"
+      "\nExample: morphbake inspect morph.glb --json");
   return {parser, [arguments](Terminal& terminal) {
-            const Facts facts = find_facts(arguments->file);
+            const Facts facts =
+                find_facts(arguments->file, node_choice(arguments->node), terminal.observer());
             if (arguments->json) return terminal.result(as_json(facts));
             print_facts(facts, terminal);
           }};

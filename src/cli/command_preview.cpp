@@ -5,7 +5,7 @@
 #include <string_view>
 
 #include "cli/commands.h"
-#include "morphbake/bake/bake.h"
+#include "morphbake/bake/previews.h"
 
 namespace morphbake::cli {
 namespace {
@@ -16,6 +16,7 @@ const std::map<std::string, PreviewFormat> kFormats = {
 struct Arguments {
   std::filesystem::path file;
   std::filesystem::path stem;
+  std::string node;
   std::string size = "512x512";
   int frames = PreviewRequest{}.frames;
   std::vector<std::string> formats = {"gif", "sheet"};
@@ -49,7 +50,8 @@ void run_preview(const Arguments& arguments, Terminal& terminal) {
   std::filesystem::path stem = arguments.stem;
   if (stem.empty()) stem = std::filesystem::path(arguments.file).replace_extension();
   for (const std::filesystem::path& file :
-       preview(arguments.file, request, options, stem, terminal.observer())) {
+       preview({arguments.file, arguments.file, stem, node_choice(arguments.node)}, request,
+               options, terminal.observer())) {
     terminal.result(file.string());
   }
 }
@@ -63,6 +65,7 @@ Command add_preview(CLI::App& program) {
   parser->add_option("-o,--output", arguments->stem,
                      "Stem of the files to write: STEM.gif, STEM.sheet.png, STEM.frames/ "
                      "(default: the file's own name)");
+  add_node(*parser, arguments->node);
   parser->add_option("--size", arguments->size, "WIDTHxHEIGHT in pixels")->capture_default_str();
   parser->add_option("--frames", arguments->frames, "Pictures in the loop")
       ->check(CLI::Range(1, 10000))

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "cli/terminal.h"
+#include "morphbake/gltf/mesh_choice.h"
 
 namespace morphbake::cli {
 
@@ -29,6 +30,12 @@ Command add_config(CLI::App& program);
 
 /// The option `--set /POINTER=VALUE`, which may be repeated.
 void add_settings(CLI::App& parser, std::vector<std::string>& settings);
+
+/// The option `--node NAME`: whose mesh of a file is meant.
+void add_node(CLI::App& parser, std::string& node);
+
+/// What `--node` says: only digits are an index, all else a name, nothing no choice.
+NameOrIndex node_choice(const std::string& node);
 
 /// The schema of that name that came with this program, installed or as built in the source tree;
 /// empty when there is none.

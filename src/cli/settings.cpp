@@ -1,3 +1,5 @@
+#include <charconv>
+
 #include "cli/commands.h"
 
 namespace morphbake::cli {
@@ -9,6 +11,20 @@ void add_settings(CLI::App& parser, std::vector<std::string>& settings) {
           "Override an option by its JSON pointer; may be repeated (names: morphbake config)")
       ->type_name("/POINTER=VALUE")
       ->allow_extra_args(false);
+}
+
+void add_node(CLI::App& parser, std::string& node) {
+  parser.add_option("--node", node,
+                    "The node whose mesh is meant, by its name in the file or its index from 0 "
+                    "(default: the first one with a mesh)");
+}
+
+NameOrIndex node_choice(const std::string& node) {
+  if (node.empty()) return {};
+  int index = 0;
+  const auto [end, error] = std::from_chars(node.data(), node.data() + node.size(), index);
+  if (error == std::errc() && end == node.data() + node.size()) return index;
+  return node;
 }
 
 }  // namespace morphbake::cli

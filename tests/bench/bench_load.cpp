@@ -1,6 +1,8 @@
 // Reading a large source, beside what tinygltf alone takes for the same file.
 
 #include <fmt/core.h>
+#define TINYGLTF_NO_STB_IMAGE
+#define TINYGLTF_NO_STB_IMAGE_WRITE
 #include <tiny_gltf.h>
 
 #include <cmath>

@@ -126,9 +126,9 @@ void bench_preview(int vertices, Figures& figures) {
   primitive.target_normals = morph.primitives[0].target_normals;
   animated.primitives = {primitive};
   animated.target_names = {"t"};
-  animated.key_times = {0, 1};
-  animated.key_weights = Eigen::MatrixXf::Identity(2, 1);
-  animated.key_weights << 0, 1;
+  animated.weights.times = {0, 1};
+  animated.weights.values = Eigen::MatrixXf::Identity(2, 1);
+  animated.weights.values << 0, 1;
   TurntableOptions look;
   look.frames = 8;
   look.samples = 4;

@@ -116,8 +116,19 @@ const halved = ({ points, faces }) => {
 const flat_triangles = { mesh: halved(sphere(16, 12)), landmarks: {} };
 if (done('resampled_halves', flat_triangles, flat_triangles, { mode: 'resample', max_error: 0.05, max_vertices: 3000, target_edge_length: 0.05 })
   .report.connectivity?.sources.some((source) => source.folds > 0)) wrong('resampled_halves: folds');
-refused('turned_triangle', 4, ['[connectivity.not-manifold]', 'hint: in Blender: Mesh > Normals > Recalculate Outside'],
-  ball((mesh) => ({ points: mesh.points, faces: mesh.faces.map((face, f) => (f === 50 ? [face[0], face[2], face[1]] : face)) })), good);
+// One turned triangle is mended and told of; a strip that is twisted has no outside to turn to.
+const turn_one = (mesh) => ({ points: mesh.points, faces: mesh.faces.map((face, f) => (f === 50 ? [face[0], face[2], face[1]] : face)) });
+const mended = done('turned_triangle', ball(turn_one), good);
+if (!mended.text.includes('warning: of "a": 1 triangle is turned')) wrong(`turned_triangle: not told\n${mended.text}`);
+if (mended.report.connectivity?.repairs.map(({ turned: count }) => count).join() !== '1,0') wrong('turned_triangle: not in the report');
+const moebius = { points: [], faces: [] };
+for (let i = 0; i < 12; ++i) {
+  const u = (2 * Math.PI * i) / 12, q = [2 * i, 2 * i + 1, ...(i < 11 ? [2 * i + 2, 2 * i + 3] : [1, 0])];
+  for (const w of [-0.3, 0.3]) moebius.points.push([(1 + w * Math.cos(u / 2)) * Math.cos(u), (1 + w * Math.cos(u / 2)) * Math.sin(u), w * Math.sin(u / 2)]);
+  moebius.faces.push([q[0], q[1], q[2]], [q[1], q[3], q[2]]);
+}
+refused('moebius', 4, [' is turned against its neighbour', '[connectivity.not-manifold]', 'hint: the surface has no outside there'],
+  { mesh: moebius, landmarks: { top: { vertex: 0 }, front: { vertex: 5 }, left: { vertex: 10 }, back: { vertex: 15 } } }, good);
 refused('open_and_closed', 4, ['error: "b" is closed but "a" is open (it has a border, one of 3 edges at (', '[correspondence.different-topology]'],
   ball(without(40)), good);
 refused('inside_out', 4, ['a.gltf: error: "a" is inside out: ', '[correspondence.mirrored]', 'hint: in Blender: Mesh > Normals > Recalculate Outside'],

@@ -12,12 +12,12 @@ const SWITCHES = ['--no-sandbox', '--disable-gpu', '--disable-quic', '--no-first
 const TYPES = { '.html': 'text/html', '.js': 'text/javascript', '.mjs': 'text/javascript', '.glb': 'model/gltf-binary' };
 
 /**
- * Opens page/evaluate.html.
+ * Opens a page of page/.
  *
  * @return page: playwright's; send(bytes): a URL under which the page finds them;
  *         received: what the page posted, a Buffer a name; close()
  */
-export async function openPage() {
+export async function openPage(name = 'evaluate.html') {
   if (!existsSync(PROGRAM)) skip(`${PROGRAM} is not installed (apt-get install chromium)`);
   const exchange = { sent: [], received: {} };
   const server = createServer((request, response) => answer(exchange, request, response));
@@ -27,7 +27,7 @@ export async function openPage() {
   const complaints = [];
   page.on('pageerror', (error) => complaints.push(String(error)));
   page.on('console', (line) => { if (['error', 'warning'].includes(line.type())) complaints.push(line.text()); });
-  await page.goto(`http://127.0.0.1:${server.address().port}/page/evaluate.html`);
+  await page.goto(`http://127.0.0.1:${server.address().port}/page/${name}`);
   return {
     page, complaints, received: exchange.received,
     send: (bytes) => `/sent/${exchange.sent.push(bytes) - 1}.glb`,

@@ -5,16 +5,17 @@ import { pathToFileURL } from 'node:url';
 import { openPage } from './browser.mjs';
 
 /**
- * What three.js makes of a file at some times.
+ * What three.js makes of a file at some times of its first clip, or of another (-1: the last).
  *
- * @return primitives: {count, indices} in the file's order; clips, targets (names);
+ * @return primitives: {count, indices} in the file's order; places: {node, mesh, primitive, vertices, targets} of each;
+ *         clips, targets (names);
  *         positionsAt(k), normalsAt(k): at times[k], a list a primitive of #V by 3 values in world space
  *         (normals NaN where the file has none); complaints: what three.js or the page logged
  */
-export async function evaluateGltf(browser, bytes, times) {
+export async function evaluateGltf(browser, bytes, times, clip = 0) {
   await browser.page.waitForFunction('window.ready');
   browser.complaints.length = 0;
-  const layout = await browser.page.evaluate(([url, at]) => window.evaluate(url, at), [browser.send(bytes), times]);
+  const layout = await browser.page.evaluate(([url, at, which]) => window.evaluate(url, at, which), [browser.send(bytes), times, clip]);
   const primitives = layout.counts.map((count, k) => ({ count, indices: asArray(Uint32Array, browser.received[`indices/${k}`]) }));
   const positions = asArray(Float64Array, browser.received.positions);
   const normals = asArray(Float64Array, browser.received.normals);

@@ -97,6 +97,7 @@ export function bake(program, recipeFile, folder, { preview = 'none', args = [],
 /** The .glb files among `names`: files as they are, folders searched to the bottom. */
 export function findGlbs(names) {
   return names.flatMap((name) => {
+    if (!existsSync(name)) skip(`${name} is not there: what makes it was skipped`);
     if (!statSync(name).isDirectory()) return [name];
     return readdirSync(name, { recursive: true }).filter((file) => file.endsWith('.glb')).sort()
       .map((file) => path.join(name, file));

@@ -4,6 +4,7 @@
 #include "morphbake/bake/load_sources.h"
 #include "morphbake/bake/outputs.h"
 #include "morphbake/bake/previews.h"
+#include "morphbake/bake/share_sources.h"
 #include "morphbake/bake/stage_clock.h"
 #include "morphbake/transition/regions.h"
 
@@ -11,6 +12,10 @@ namespace morphbake {
 namespace {
 
 std::filesystem::path stem_of(std::filesystem::path file) { return file.replace_extension(); }
+
+std::filesystem::path with_ending(const std::filesystem::path& file, const char* ending) {
+  return stem_of(file) += ending;
+}
 
 }  // namespace
 
@@ -23,9 +28,11 @@ BakeReport bake(const Recipe& asked, const BakeOptions& options, const Observer&
   clock.start("sources");
   auto [recipe, loaded] = load_aligned(asked, observer);
   clock.start("connectivity");
+  check_connected_alike(recipe, loaded, with_ending(recipe.outputs.front().file, ".mismatch.png"),
+                        options, observer);
   ConnectedSources connected = connect_sources(recipe, std::move(loaded), Measuring::On, observer);
   const std::vector<SourceMesh>& sources = connected.sources;
-  const MorphableMesh mesh = share_connectivity(sources);
+  const MorphableMesh mesh = share_sources(sources, connected.report, observer);
   clock.start("transition");
   const std::vector<Eigen::VectorXd> regions = region_distances(mesh, recipe);
   clock.start("solve");
@@ -42,9 +49,9 @@ BakeReport bake(const Recipe& asked, const BakeOptions& options, const Observer&
   if (recipe.preview) {
     clock.start("preview");
     for (auto& [output, file] : staged) {
-      output.previews = stage_previews({file, output.file, stem_of(output.file)},
-                                       turntable_of(*recipe.preview, options),
-                                       recipe.preview->formats, observer, outputs);
+      output.previews = stage_previews(
+          {file, output.file, stem_of(output.file), sources.front().geometry.node},
+          turntable_of(*recipe.preview, options), recipe.preview->formats, observer, outputs);
     }
   }
   outputs.commit();
@@ -64,9 +71,8 @@ BakeReport bake(const Recipe& asked, const BakeOptions& options, const Observer&
 
 void validate(const Recipe& asked, const BakeOptions& options, const Observer& observer) {
   auto [recipe, loaded] = load_aligned(asked, observer);
-  const ConnectedSources connected =
-      connect_sources(recipe, std::move(loaded), Measuring::Off, observer);
-  const MorphableMesh mesh = share_connectivity(connected.sources);
+  ConnectedSources connected = connect_sources(recipe, std::move(loaded), Measuring::Off, observer);
+  const MorphableMesh mesh = share_sources(connected.sources, connected.report, observer);
   check_timeline(recipe, mesh, region_distances(mesh, recipe), options.solve);
 }
 

@@ -57,7 +57,8 @@ struct BakeReport {
 
 std::string report_to_json(const BakeReport& report);
 
-/// Bakes a recipe: one call a stage. All output files appear together at the end, or none.
+/// Bakes a recipe: one call a stage. All output files appear together at the end, or none; but
+/// sources that are not connected alike leave a picture of it, <first output>.mismatch.png.
 ///
 /// @throws BakeError, Cancelled
 BakeReport bake(const Recipe& recipe, const BakeOptions& options, const Observer& observer);
@@ -66,16 +67,5 @@ BakeReport bake(const Recipe& recipe, const BakeOptions& options, const Observer
 ///
 /// @throws BakeError with all problems found
 void validate(const Recipe& recipe, const BakeOptions& options, const Observer& observer);
-
-/// Renders the turntable of any morph glTF.
-///
-/// @param outputs_stem  "dir/name": writes dir/name.gif, dir/name.sheet.png,
-/// dir/name.frames/0000.png
-/// @return              the files written
-std::vector<std::filesystem::path> preview(const std::filesystem::path& gltf_file,
-                                           const PreviewRequest& request,
-                                           const BakeOptions& options,
-                                           const std::filesystem::path& outputs_stem,
-                                           const Observer& observer);
 
 }  // namespace morphbake

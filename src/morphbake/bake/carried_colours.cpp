@@ -65,7 +65,7 @@ CarriedColours carry_colours(const SourceMesh& source, const SourceSurface& surf
                              const std::vector<SurfacePoint>& points) {
   CarriedColours carried;
   carried.material = first_material(source.file, source.geometry.mesh);
-  const AnimatedMesh mesh = read_animated_mesh(source.file);
+  const AnimatedMesh mesh = read_animated_mesh(source.file, {.node = source.geometry.node});
   const bool one_factor = has_one_factor(mesh);
   if (one_factor && !has_detail(mesh)) return carried;
   if (!one_factor) {

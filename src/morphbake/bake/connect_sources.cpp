@@ -48,6 +48,14 @@ RemeshedSources remesh_sources(const Recipe& recipe, const std::vector<SourceMes
   return remeshed;
 }
 
+std::vector<SourceRepairs> repairs_of(const RemeshedSources& remeshed) {
+  std::vector<SourceRepairs> repairs;
+  for (const SourceSurface& surface : remeshed.surfaces) {
+    repairs.push_back({surface.name, surface.repairs});
+  }
+  return repairs;
+}
+
 TriangulationQuality measured(const Recipe& recipe, const RemeshedSources& remeshed,
                               const Observer& observer) {
   TriangulationQuality quality =
@@ -68,6 +76,7 @@ ConnectedSources connect_sources(const Recipe& recipe, std::vector<SourceMesh> s
   }
   StageClock clock(observer);
   const RemeshedSources remeshed = remesh_sources(recipe, sources, clock, observer);
+  connected.report.repairs = repairs_of(remeshed);
   if (measuring == Measuring::On) {
     clock.start("measure");
     connected.report.quality = measured(recipe, remeshed, observer);

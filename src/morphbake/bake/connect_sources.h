@@ -26,6 +26,9 @@ struct RemeshedSources {
 RemeshedSources remesh_sources(const Recipe& recipe, const std::vector<SourceMesh>& sources,
                                StageClock& clock, const Observer& observer);
 
+/// What was mended on each source.
+std::vector<SourceRepairs> repairs_of(const RemeshedSources& remeshed);
+
 /// Measures a new connectivity and tells what is worth a look as warnings.
 TriangulationQuality measured(const Recipe& recipe, const RemeshedSources& remeshed,
                               const Observer& observer);

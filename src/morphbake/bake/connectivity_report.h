@@ -9,15 +9,22 @@
 #include "morphbake/connectivity/shared_triangulation.h"
 #include "morphbake/diagnostics/problem.h"
 #include "morphbake/recipe/recipe.h"
+#include "morphbake/sources/corner_surface.h"
 
 namespace morphbake {
+
+struct SourceRepairs {
+  std::string source;
+  SurfaceRepairs repairs;
+};
 
 /// How the sources got one connectivity.
 struct ConnectivityReport {
   ConnectivityMode mode = ConnectivityMode::Shared;
   int vertices = 0;
   int triangles = 0;
-  std::vector<StageReport> steps;               ///< none when the sources shared one
+  std::vector<SourceRepairs> repairs;  ///< one a source; those that share triangles share it
+  std::vector<StageReport> steps;      ///< none when the sources shared one
   std::optional<TriangulationQuality> quality;  ///< of new triangles, when it was measured
 };
 

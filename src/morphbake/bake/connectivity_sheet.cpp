@@ -101,7 +101,7 @@ Float3s heat_colours(const Eigen::VectorXd& distortion, const Connectivity& k) {
 AnimatedMesh still_mesh(AnimatedPrimitive primitive) {
   AnimatedMesh mesh;
   mesh.primitives.push_back(std::move(primitive));
-  mesh.key_weights = Eigen::MatrixXf::Zero(1, 0);
+  mesh.weights.values = Eigen::MatrixXf::Zero(1, 0);
   return mesh;
 }
 
@@ -217,7 +217,8 @@ Image connectivity_sheet(const std::vector<SourceMesh>& sources, const RemeshedS
   std::vector<Image> pictures;
   for (std::size_t s = 0; s < sources.size(); ++s) {
     advance(observer, {"sheet", static_cast<int>(s), static_cast<int>(sources.size())});
-    pictures.push_back(picture_of(read_animated_mesh(sources[s].file), options));
+    pictures.push_back(picture_of(
+        read_animated_mesh(sources[s].file, {.node = sources[s].geometry.node}), options));
     draw_title(sources[s].name, pictures.back());
     stop_if_cancelled(observer);
     pictures.push_back(surface_picture(triangulation, s, options));

@@ -44,6 +44,19 @@ void warn_of_targets(const Recipe& recipe, std::size_t index, std::size_t count,
                            "use \"targets\": \"tracks\", a lower fps or a shorter timeline"});
 }
 
+/// Posed vertices must not be posed again.
+void warn_of_skin(const SolvedRecipe& solved, const Observer& observer) {
+  const SourceGeometry& geometry = solved.first.geometry;
+  if (!geometry.is_posed) return;
+  report(observer,
+         Problem{Severity::Warning,
+                 "gltf.skin-dropped",
+                 {file_of(solved.first.file), fmt::format("/nodes/{}/skin", geometry.node), 0, 0},
+                 "the first source is posed by its skeleton, so the mesh that is written has no "
+                 "skin",
+                 "name a source in its rest pose first to keep the skin"});
+}
+
 void check_normals(const Recipe& recipe, std::size_t index, const NormalReport& normals,
                    const Observer& observer) {
   const Output& output = recipe.outputs[index];
@@ -112,6 +125,7 @@ StagedOutput stage_output(const SolvedRecipe& solved, std::size_t index, const B
   const auto [morph, motion] =
       output.still ? make_still_output(solved, *output.still, options.solve)
                    : make_animated_output(solved, output.targets, options.basis, observer);
+  warn_of_skin(solved, observer);
   if (!output.still) warn_of_targets(solved.recipe, index, morph.target_names.size(), observer);
   const MorphError error =
       measure_mesh_morph(solved.first, solved.mesh, morph, solved.groups, motion);

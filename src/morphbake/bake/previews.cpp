@@ -4,8 +4,6 @@
 
 #include <utility>
 
-#include "morphbake/bake/bake.h"
-
 namespace morphbake {
 namespace fs = std::filesystem;
 
@@ -30,7 +28,8 @@ std::vector<Image> sheet_pictures(const std::vector<Image>& frames) {
 std::vector<Image> render(const PreviewPaths& paths, const TurntableOptions& look,
                           const Observer& observer) {
   try {
-    return render_turntable(read_animated_mesh(paths.gltf_file), look, observer);
+    return render_turntable(read_animated_mesh(paths.gltf_file, {.node = paths.node}), look,
+                            observer);
   } catch (const BakeError& error) {
     std::vector<Problem> problems = error.problems();
     for (Problem& problem : problems) {
@@ -85,13 +84,11 @@ std::vector<fs::path> stage_previews(const PreviewPaths& paths, const TurntableO
   return files;
 }
 
-std::vector<fs::path> preview(const fs::path& gltf_file, const PreviewRequest& request,
-                              const BakeOptions& options, const fs::path& outputs_stem,
-                              const Observer& observer) {
+std::vector<fs::path> preview(const PreviewPaths& paths, const PreviewRequest& request,
+                              const BakeOptions& options, const Observer& observer) {
   PendingOutputs outputs;
   std::vector<fs::path> files =
-      stage_previews({gltf_file, gltf_file, outputs_stem}, turntable_of(request, options),
-                     request.formats, observer, outputs);
+      stage_previews(paths, turntable_of(request, options), request.formats, observer, outputs);
   outputs.commit();
   return files;
 }

@@ -16,6 +16,7 @@ struct PreviewPaths {
   std::filesystem::path gltf_file;
   std::filesystem::path shown;  ///< what messages call that file
   std::filesystem::path stem;   ///< "dir/name"
+  NameOrIndex node = {};        ///< whose mesh is shown; none: the first one
 };
 
 /// The look of a recipe's turntable.
@@ -29,5 +30,11 @@ std::vector<std::filesystem::path> stage_previews(const PreviewPaths& paths,
                                                   const std::vector<PreviewFormat>& formats,
                                                   const Observer& observer,
                                                   PendingOutputs& outputs);
+
+/// Renders the turntable of any morph glTF: stem.gif, stem.sheet.png, stem.frames/0000.png ...
+///
+/// @return  the files written
+std::vector<std::filesystem::path> preview(const PreviewPaths& paths, const PreviewRequest& request,
+                                           const BakeOptions& options, const Observer& observer);
 
 }  // namespace morphbake

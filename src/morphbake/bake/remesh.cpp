@@ -8,6 +8,7 @@
 #include "morphbake/bake/connect_sources.h"
 #include "morphbake/bake/connectivity_sheet.h"
 #include "morphbake/bake/load_sources.h"
+#include "morphbake/bake/share_sources.h"
 #include "morphbake/files/files.h"
 #include "morphbake/json/json.h"
 
@@ -106,12 +107,15 @@ RemeshReport remesh(const Recipe& asked, const BakeOptions& options, const fs::p
   StageClock clock(observer);
   clock.start("sources");
   const auto [recipe, sources] = load_aligned(asked, observer);
+  check_connected_alike(recipe, sources, folder / (recipe.name + ".mismatch.png"), options,
+                        observer);
   const RemeshedSources remeshed = remesh_sources(recipe, sources, clock, observer);
   clock.start("measure");
   ConnectivityReport& connectivity = result.connectivity;
   connectivity.mode = recipe.connectivity.mode;
   connectivity.vertices = remeshed.triangulation.connectivity.vertex_count;
   connectivity.triangles = static_cast<int>(remeshed.triangulation.connectivity.triangles.rows());
+  connectivity.repairs = repairs_of(remeshed);
   connectivity.quality = measured(recipe, remeshed, observer);
   PendingOutputs outputs;
   const std::size_t count = sources.size();

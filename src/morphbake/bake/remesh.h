@@ -29,7 +29,8 @@ std::vector<std::filesystem::path> remeshed_files(const Recipe& recipe,
                                                   const std::filesystem::path& folder,
                                                   SheetRequest sheet);
 
-/// Writes the sources on their new connectivity. All files appear together, or none.
+/// Writes the sources on their new connectivity. All files appear together, or none; but sources
+/// of the mode Resample that are not connected alike leave <recipe>.mismatch.png.
 ///
 /// @param recipe  of a mode other than Shared
 /// @throws BakeError "recipe.overwrites-source" before any work; as remesh_sources; Cancelled

@@ -114,6 +114,13 @@ Json to_json(const DistortionRegion& region, const std::string& first) {
   return json;
 }
 
+Json to_json(const SourceRepairs& mended) {
+  return {{"source", mended.source},
+          {"degenerate", mended.repairs.degenerate},
+          {"duplicate", mended.repairs.duplicate},
+          {"turned", mended.repairs.turned}};
+}
+
 template <typename Item>
 Json list_of(const std::vector<Item>& items) {
   Json list = Json::array();
@@ -124,7 +131,8 @@ Json list_of(const std::vector<Item>& items) {
 Json to_json(const ConnectivityReport& report) {
   Json json = {{"mode", name_of(report.mode)},
                {"vertices", report.vertices},
-               {"triangles", report.triangles}};
+               {"triangles", report.triangles},
+               {"repairs", list_of(report.repairs)}};
   if (report.mode == ConnectivityMode::Shared) return json;
   json["steps"] = to_json(report.steps);
   if (!report.quality) return json;

@@ -30,31 +30,44 @@ Corners corners_of(const std::vector<int>& render_of_corner, std::size_t f) {
 
 /// The shared surface as corners of the files' triangles, which are the same in all of them.
 CornerSurface corner_surface(const MorphableMesh& shared, const SourceMesh& first) {
+  CornerSurface corners;
+  corners.connectivity = shared.connectivity;
+  corners.triangle_of_file = shared.triangle_of_file;
+  corners.repairs = shared.repairs;
+  for (const int render : first.triangles.reshaped<Eigen::RowMajor>()) {
+    corners.vertex_of_corner.push_back(shared.vertex_of_render[static_cast<std::size_t>(render)]);
+  }
   SourceSurface surface;
   surface.render_of_corner = shared.render_of_corner;
   const std::vector<int> in_file = triangles_in_file(surface, first);
-  CornerSurface corners;
-  corners.connectivity = shared.connectivity;
-  corners.vertex_of_corner.assign(static_cast<std::size_t>(first.triangles.size()), -1);
   for (std::size_t c = 0; c < shared.render_of_corner.size(); ++c) {
     const int f = in_file[c / 3];
     int k = 0;
     while (first.triangles(f, k) != shared.render_of_corner[c]) ++k;
-    const int corner = 3 * f + k;
-    corners.file_corner.push_back(corner);
-    corners.vertex_of_corner[static_cast<std::size_t>(corner)] =
-        shared.connectivity.triangles.data()[c];
+    corners.file_corner.push_back(3 * f + k);
   }
   return corners;
 }
 
 /// New triangles are made on the first source. What lies at one place there would be one: a sphere
 /// that is squashed flat, a mouth that is closed so that its lips are one line.
-void check_is_surface(const SourceMesh& source) {
-  const std::vector<int> classes = welded_corners(source);
-  CornerSurface own = surface_of_corners(classes, proper_triangles(classes));
-  wind_as_seen(source, own);
-  check_manifold(source, own.connectivity, vertex_positions(source, own));
+void check_is_surface(const SourceMesh& source, const MorphableMesh& shared) {
+  const Positions& positions = shared.geometries[0];
+  int count = 0;
+  const std::vector<int> welded = weld_rows(positions, count);
+  Positions points(count, 3);
+  for (Eigen::Index v = 0; v < positions.rows(); ++v) {
+    points.row(welded[static_cast<std::size_t>(v)]) = positions.row(v);
+  }
+  Connectivity own{count, Triangles(shared.connectivity.triangles.rows(), 3)};
+  Eigen::Index rows = 0;
+  for (const auto& triangle : shared.connectivity.triangles.rowwise()) {
+    auto row = own.triangles.row(rows);
+    for (int k = 0; k < 3; ++k) row(k) = welded[static_cast<std::size_t>(triangle(k))];
+    if (row(0) != row(1) && row(1) != row(2) && row(2) != row(0)) ++rows;
+  }
+  own.triangles.conservativeResize(rows, 3);
+  check_manifold(source, own, points);
 }
 
 /// Every landmark is a vertex.
@@ -95,10 +108,15 @@ std::vector<SourceSurface> own_surfaces(const Recipe& recipe,
 std::vector<SourceSurface> shared_surfaces(const Recipe& recipe,
                                            const std::vector<SourceMesh>& sources,
                                            const Observer& observer) {
-  check_is_surface(sources[0]);
-  stop_if_cancelled(observer);
   const MorphableMesh shared = share_connectivity(sources);
   stop_if_cancelled(observer);
+  check_is_surface(sources[0], shared);
+  stop_if_cancelled(observer);
+  for (const Problem& warning :
+       surface_warnings(sources[0], shared.names, shared.connectivity.triangles, shared.geometries,
+                        shared.repairs)) {
+    report(observer, warning);
+  }
   const CornerSurface corners = corner_surface(shared, sources[0]);
   std::vector<SourceSurface> surfaces;
   for (std::size_t s = 0; s < sources.size(); ++s) {
@@ -107,6 +125,7 @@ std::vector<SourceSurface> shared_surfaces(const Recipe& recipe,
     SourceSurface& surface = surfaces.emplace_back();
     surface.name = sources[s].name;
     surface.file = ref.file.string();
+    surface.repairs = shared.repairs;
     surface.mesh = {shared.geometries[s], shared.connectivity.triangles};
     surface.render_of_corner = render_corners(sources[s], corners);
     surface.vertex_of_render.assign(static_cast<std::size_t>(sources[s].positions.rows()), -1);

@@ -39,8 +39,8 @@ std::string format_problem(const Problem& problem) {
   if (at.line > 0) text += fmt::format(":{}:{}", at.line, at.column);
   if (!text.empty()) text += ": ";
   text += problem.severity == Severity::Error ? "error: " : "warning: ";
-  text += fmt::format("{} [{}]", problem.message, problem.code);
-  if (!problem.hint.empty()) text += "\n  hint: " + problem.hint;
+  text += fmt::format("{} [{}]", without_control_characters(problem.message), problem.code);
+  if (!problem.hint.empty()) text += "\n  hint: " + without_control_characters(problem.hint);
   return text;
 }
 

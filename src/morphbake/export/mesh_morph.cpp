@@ -68,6 +68,7 @@ MeshMorph empty_morph(const SourceMesh& first) {
   MeshMorph morph;
   morph.node = first.geometry.node;
   morph.mesh = first.geometry.mesh;
+  morph.drops_skin = first.geometry.is_posed;
   morph.key_weights = Eigen::MatrixXf::Zero(1, 0);
   return morph;
 }
@@ -82,6 +83,7 @@ void add_rest(const SourceMesh& first, const MorphableMesh& mesh, const Smoothin
     normals = to_mesh_space(deformed_normals(groups, mesh, positions), linear_part(first));
   }
   const bool is_source = moved.isZero(0);  // then the file's own normals stand too, bit for bit
+  morph.replaces_base = !is_source || !first.geometry.is_at_rest;
   Eigen::Index begin = 0;
   for (const PrimitiveGeometry& source : first.geometry.primitives) {
     const Eigen::Index count = source.positions.rows();

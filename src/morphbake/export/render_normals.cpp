@@ -22,6 +22,29 @@ Float3s all_file_normals(const SourceMesh& source) {
   return normals;
 }
 
+/// Lists the file's triangles that K has, and the groups of their corners.
+void add_drawn_triangles(const SourceMesh& first, const MorphableMesh& mesh,
+                         SmoothingGroups& groups) {
+  for (int f = 0; f < static_cast<int>(mesh.triangle_of_file.size()); ++f) {
+    const int of_k = mesh.triangle_of_file[static_cast<std::size_t>(f)];
+    if (of_k < 0) continue;
+    groups.triangles.push_back(of_k);
+    for (const int vertex : mesh.connectivity.triangles.row(of_k)) {
+      for (const int render : first.triangles.row(f)) {
+        if (mesh.vertex_of_render[static_cast<std::size_t>(render)] != vertex) continue;
+        groups.of_corner.push_back(groups.of_render[static_cast<std::size_t>(render)]);
+      }
+    }
+  }
+}
+
+/// Normals of the groups on K's surface.
+Normals surface_normals(const SmoothingGroups& groups, const MorphableMesh& mesh,
+                        const Positions& positions) {
+  const Triangles drawn = mesh.connectivity.triangles(groups.triangles, Eigen::all);
+  return corner_group_normals(positions, drawn, groups.of_corner, groups.count);
+}
+
 }  // namespace
 
 SmoothingGroups find_smoothing_groups(const SourceMesh& first, const MorphableMesh& mesh) {
@@ -44,14 +67,11 @@ SmoothingGroups find_smoothing_groups(const SourceMesh& first, const MorphableMe
     ++groups.count;
     render_of_group.push_back(static_cast<int>(r));
   }
-  for (const int render : mesh.render_of_corner) {
-    groups.of_corner.push_back(groups.of_render[static_cast<std::size_t>(render)]);
-  }
+  add_drawn_triangles(first, mesh, groups);
   // Normals go to the scene by the inverse transpose (glTF 2.0, 3.7.2.1).
   const Eigen::Matrix3d inverse = first.geometry.to_scene.topLeftCorner<3, 3>().inverse();
   const Float3s chosen = file_normals(render_of_group, Eigen::all);
-  groups.surface_normals = corner_group_normals(mesh.geometries[0], mesh.connectivity.triangles,
-                                                groups.of_corner, groups.count);
+  groups.surface_normals = surface_normals(groups, mesh, mesh.geometries[0]);
   groups.source_normals = chosen.cast<double>() * inverse;
   for (int g = 0; g < groups.count; ++g) {
     const double length = groups.source_normals.row(g).norm();
@@ -66,8 +86,7 @@ SmoothingGroups find_smoothing_groups(const SourceMesh& first, const MorphableMe
 
 Normals deformed_normals(const SmoothingGroups& groups, const MorphableMesh& mesh,
                          const Positions& positions) {
-  const Normals surface =
-      corner_group_normals(positions, mesh.connectivity.triangles, groups.of_corner, groups.count);
+  const Normals surface = surface_normals(groups, mesh, positions);
   Normals normals = groups.source_normals;
   for (int g = 0; g < groups.count; ++g) {
     const Eigen::Vector3d from = groups.surface_normals.row(g);

@@ -7,8 +7,25 @@
 #include <cstdint>
 #include <cstring>
 
+#include "morphbake/gltf/size_limits.h"
+
 namespace morphbake {
 namespace {
+
+/// Where elements lie, checked to be inside their buffer; `first` is null when they are all 0.
+struct ElementSpan {
+  const unsigned char* first = nullptr;
+  std::size_t stride = 0;
+  std::size_t count = 0;
+};
+
+/// Where they should lie.
+struct SpanRequest {
+  int view = 0;
+  std::size_t offset = 0;   ///< in the view
+  std::size_t element = 0;  ///< bytes of one
+  std::size_t count = 0;
+};
 
 template <typename Item>
 const Item& item_at(const GltfDocument& document, const std::vector<Item>& items, int index,
@@ -25,39 +42,182 @@ const tinygltf::Accessor& accessor_at(const GltfDocument& document, int accessor
   return item_at(document, document.model.accessors, accessor, pointer, "accessor");
 }
 
-/// One component as a float: as it is, or a normalised integer (glTF 2.0, 3.6.2.2).
-float component_value(const unsigned char* bytes, int type) {
-  const auto load = [bytes](auto value) {
-    std::memcpy(&value, bytes, sizeof value);
-    return static_cast<float>(value);
-  };
+std::size_t component_bytes(int type) {
+  return static_cast<std::size_t>(
+      std::max(0, tinygltf::GetComponentSizeInBytes(static_cast<std::uint32_t>(type))));
+}
+
+/// @param pointer  of the accessor, or of its part that asks
+ElementSpan span_of(const GltfDocument& document, const SpanRequest& request,
+                    const std::string& pointer) {
+  const auto& view = item_at(document, document.model.bufferViews, request.view,
+                             pointer + "/bufferView", "bufferView");
+  const auto& buffer = item_at(document, document.model.buffers, view.buffer,
+                               fmt::format("/bufferViews/{}/buffer", request.view), "buffer");
+  const std::size_t stride = view.byteStride > 0 ? view.byteStride : request.element;
+  const std::size_t size = buffer.data.size();
+  // Each subtraction is guarded by the test before it, so that no sum can overflow.
+  const bool view_inside = view.byteOffset <= size && view.byteLength <= size - view.byteOffset;
+  const bool starts_inside = view_inside && request.offset <= view.byteLength;
+  const std::size_t room = starts_inside ? view.byteLength - request.offset : 0;
+  const bool fits = request.count > 0 && stride >= request.element && room >= request.element &&
+                    request.count - 1 <= (room - request.element) / stride;
+  if (!fits) {
+    fail_at(document, pointer, "gltf.accessor",
+            fmt::format("{} elements of {} bytes do not fit into the {} bytes of their bufferView",
+                        request.count, request.element, view.byteLength),
+            "the file was cut off or its exporter is at fault; export it again");
+  }
+  return {buffer.data.data() + view.byteOffset + request.offset, stride, request.count};
+}
+
+ElementSpan element_span(const GltfDocument& document, int index, const std::string& pointer) {
+  const tinygltf::Accessor& accessor = accessor_at(document, index, pointer);
+  const std::string place = fmt::format("/accessors/{}", index);
+  const std::size_t component = component_bytes(accessor.componentType);
+  const int components =
+      tinygltf::GetNumComponentsInType(static_cast<std::uint32_t>(accessor.type));
+  if (component == 0 || components <= 0) {
+    fail_at(document, place, "gltf.accessor", "unknown component type or element type");
+  }
+  const std::size_t element = component * static_cast<std::size_t>(components);
+  if (accessor.bufferView >= 0) {
+    return span_of(document, {accessor.bufferView, accessor.byteOffset, element, accessor.count},
+                   place);
+  }
+  if (accessor.count > kMostZeros) {
+    fail_at(document, place + "/count", "gltf.too-large",
+            fmt::format("{} elements without a bufferView; at most {} can be read", accessor.count,
+                        kMostZeros),
+            "export the file again");
+  }
+  return {nullptr, element, accessor.count};
+}
+
+/// Components of one element, as floats.
+template <typename Component>
+void convert(const unsigned char* bytes, std::size_t columns, bool normalised, float* out) {
+  for (std::size_t c = 0; c < columns; ++c) {
+    Component value;
+    std::memcpy(&value, bytes + c * sizeof value, sizeof value);
+    out[c] = static_cast<float>(value);
+    if constexpr (std::numeric_limits<Component>::is_integer) {
+      constexpr auto kOne = static_cast<float>(std::numeric_limits<Component>::max());
+      if (normalised) out[c] = std::max(out[c] / kOne, -1.0F);
+    }
+  }
+}
+
+using Conversion = void (*)(const unsigned char*, std::size_t, bool, float*);
+
+Conversion conversion_from(int type) {
   switch (type) {
     case TINYGLTF_COMPONENT_TYPE_FLOAT:
-      return load(float{});
+      return convert<float>;
     case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
-      return load(std::uint8_t{}) / 255.0F;
+      return convert<std::uint8_t>;
     case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
-      return load(std::uint16_t{}) / 65535.0F;
+      return convert<std::uint16_t>;
     case TINYGLTF_COMPONENT_TYPE_BYTE:
-      return std::max(load(std::int8_t{}) / 127.0F, -1.0F);
+      return convert<std::int8_t>;
+    case TINYGLTF_COMPONENT_TYPE_SHORT:
+      return convert<std::int16_t>;
     default:
-      return std::max(load(std::int16_t{}) / 32767.0F, -1.0F);
+      return nullptr;
   }
+}
+
+/// Converts all elements of a span to rows of `columns` floats.
+void convert_span(const ElementSpan& span, int type, bool normalised, std::size_t columns,
+                  float* out) {
+  if (!span.first) {
+    std::fill_n(out, span.count * columns, 0.0F);
+    return;
+  }
+  if (type == TINYGLTF_COMPONENT_TYPE_FLOAT && span.stride == columns * sizeof(float)) {
+    std::memcpy(out, span.first, span.count * span.stride);
+    return;
+  }
+  const Conversion conversion = conversion_from(type);
+  for (std::size_t i = 0; i < span.count; ++i) {
+    conversion(span.first + i * span.stride, columns, normalised, out + i * columns);
+  }
+}
+
+template <typename Number>
+std::vector<std::uint32_t> convert_unsigned(const ElementSpan& span, std::size_t columns) {
+  std::vector<std::uint32_t> values(span.count * columns, 0);
+  for (std::size_t i = 0; span.first && i < values.size(); ++i) {
+    Number value;
+    std::memcpy(&value, span.first + (i / columns) * span.stride + (i % columns) * sizeof value,
+                sizeof value);
+    values[i] = value;
+  }
+  return values;
+}
+
+/// Elements of 1, 2 or 4 unsigned bytes a number.
+std::vector<std::uint32_t> convert_unsigned(const ElementSpan& span, std::size_t bytes,
+                                            std::size_t columns) {
+  if (bytes == 1) return convert_unsigned<std::uint8_t>(span, columns);
+  if (bytes == 2) return convert_unsigned<std::uint16_t>(span, columns);
+  return convert_unsigned<std::uint32_t>(span, columns);
+}
+
+bool is_unsigned(int type) {
+  return type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE ||
+         type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT ||
+         type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT;
+}
+
+/// Which elements a sparse accessor replaces, and by what.
+struct SparseElements {
+  std::vector<std::uint32_t> rows;  ///< rising, each below the accessor's count
+  ElementSpan values;
+};
+
+/// @param element  bytes of one element of the accessor
+SparseElements sparse_elements(const GltfDocument& document, int index, std::size_t element) {
+  const auto at = static_cast<std::size_t>(index);
+  const Json& accessor = document.json.at("accessors").at(at);
+  const Json& sparse = accessor.at("sparse");
+  const std::string pointer = fmt::format("/accessors/{}/sparse", index);
+  const auto count = sparse.at("count").get<std::size_t>();
+  const Json &indices = sparse.at("indices"), &values = sparse.at("values");
+  const auto offset_of = [](const Json& part) { return part.value("byteOffset", std::size_t{0}); };
+  const auto view_of = [](const Json& part) {
+    return static_cast<int>(
+        std::min<std::uint64_t>(part.at("bufferView").get<std::uint64_t>(), INT32_MAX));
+  };
+  const std::size_t width = component_bytes(indices.at("componentType").get<int>());
+  const ElementSpan rows =
+      span_of(document, {view_of(indices), offset_of(indices), width, count}, pointer + "/indices");
+  SparseElements found;
+  found.rows = convert_unsigned(rows, width, 1);
+  found.values =
+      span_of(document, {view_of(values), offset_of(values), element, count}, pointer + "/values");
+  const std::size_t all = document.model.accessors[at].count;
+  for (std::size_t i = 0; i < found.rows.size(); ++i) {
+    const bool rises = i == 0 || found.rows[i] > found.rows[i - 1];
+    if (rises && found.rows[i] < all) continue;
+    fail_at(document, pointer + "/indices", "gltf.accessor",
+            fmt::format("index {} is {}; indices rise and are below the accessor's {}", i,
+                        found.rows[i], all));
+  }
+  return found;
+}
+
+bool is_sparse(const GltfDocument& document, int index) {
+  return document.model.accessors[static_cast<std::size_t>(index)].sparse.isSparse;
 }
 
 void check_components(const GltfDocument& document, int index, int columns,
                       const std::string& pointer) {
   const tinygltf::Accessor& accessor = accessor_at(document, index, pointer);
-  const int type = accessor.componentType;
-  const bool is_float = type == TINYGLTF_COMPONENT_TYPE_FLOAT && !accessor.normalized;
-  const bool is_short_integer = type >= TINYGLTF_COMPONENT_TYPE_BYTE &&
-                                type <= TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT &&
-                                accessor.normalized;
-  if (!is_float && !is_short_integer) {
-    fail_at(document, pointer, "gltf.unsupported-accessor",
-            fmt::format(
-                "accessor {} has component type {}, neither float nor a normalised short integer",
-                index, type));
+  if (conversion_from(accessor.componentType) == nullptr) {
+    fail_at(document, pointer, "gltf.accessor",
+            fmt::format("accessor {} has component type {}, which is for indices only", index,
+                        accessor.componentType));
   }
   if (const int found = accessor_columns(document, index, pointer); found != columns) {
     fail_at(
@@ -66,46 +226,46 @@ void check_components(const GltfDocument& document, int index, int columns,
   }
 }
 
+/// Reads the elements of `index` to `out`, which has room for them.
+///
+/// @param span  element_span(document, index, pointer) of a checked accessor
+void read_numbers(const GltfDocument& document, int index, const ElementSpan& span,
+                  const std::string& pointer, float* out) {
+  const tinygltf::Accessor& accessor = document.model.accessors[static_cast<std::size_t>(index)];
+  const int type = accessor.componentType;
+  const auto columns = static_cast<std::size_t>(accessor_columns(document, index, pointer));
+  convert_span(span, type, accessor.normalized, columns, out);
+  if (is_sparse(document, index)) {
+    const SparseElements sparse = sparse_elements(document, index, columns * component_bytes(type));
+    const Conversion conversion = conversion_from(type);
+    for (std::size_t i = 0; i < sparse.rows.size(); ++i) {
+      conversion(sparse.values.first + i * sparse.values.stride, columns, accessor.normalized,
+                 out + sparse.rows[i] * columns);
+    }
+  }
+  if (type != TINYGLTF_COMPONENT_TYPE_FLOAT) return;
+  const float* first = out;
+  const float* end = first + span.count * columns;
+  const float* bad = std::find_if(first, end, [](float value) { return !std::isfinite(value); });
+  if (bad == end) return;
+  fail_at(document, pointer, "gltf.not-finite",
+          fmt::format("element {} of accessor {} is not a finite number",
+                      static_cast<std::size_t>(bad - first) / columns, index));
+}
+
+template <typename Rows>
+Rows read_rows(const GltfDocument& document, int index, const std::string& pointer) {
+  check_components(document, index, static_cast<int>(Rows::ColsAtCompileTime), pointer);
+  const ElementSpan span = element_span(document, index, pointer);
+  Rows rows(static_cast<Eigen::Index>(span.count), static_cast<int>(Rows::ColsAtCompileTime));
+  read_numbers(document, index, span, pointer, rows.data());
+  return rows;
+}
+
 }  // namespace
 
-ElementSpan element_span(const GltfDocument& document, int index, const std::string& pointer) {
-  const tinygltf::Accessor& accessor = accessor_at(document, index, pointer);
-  if (accessor.sparse.isSparse || accessor.bufferView < 0) {
-    fail_at(document, fmt::format("/accessors/{}", index), "gltf.unsupported-accessor",
-            "sparse accessors, and accessors without a bufferView, are not supported",
-            "export without sparse accessors");
-  }
-  const std::string accessor_pointer = fmt::format("/accessors/{}", index);
-  const auto& view = item_at(document, document.model.bufferViews, accessor.bufferView,
-                             accessor_pointer + "/bufferView", "bufferView");
-  const auto& buffer =
-      item_at(document, document.model.buffers, view.buffer,
-              fmt::format("/bufferViews/{}/buffer", accessor.bufferView), "buffer");
-  const int component_size =
-      tinygltf::GetComponentSizeInBytes(static_cast<std::uint32_t>(accessor.componentType));
-  const int components =
-      tinygltf::GetNumComponentsInType(static_cast<std::uint32_t>(accessor.type));
-  if (component_size <= 0 || components <= 0) {
-    fail_at(document, accessor_pointer, "gltf.accessor", "unknown component type or element type");
-  }
-  const std::size_t element =
-      static_cast<std::size_t>(component_size) * static_cast<std::size_t>(components);
-  const std::size_t stride = view.byteStride > 0 ? view.byteStride : element;
-  const std::size_t size = buffer.data.size();
-  // Each subtraction is guarded by the test before it, so that no sum can overflow.
-  const bool view_inside = view.byteOffset <= size && view.byteLength <= size - view.byteOffset;
-  const bool starts_inside = view_inside && accessor.byteOffset <= view.byteLength;
-  const std::size_t room = starts_inside ? view.byteLength - accessor.byteOffset : 0;
-  const bool fits = accessor.count > 0 && stride >= element && room >= element &&
-                    accessor.count - 1 <= (room - element) / stride;
-  if (!fits) {
-    fail_at(document, accessor_pointer, "gltf.accessor",
-            fmt::format("{} elements of {} bytes do not fit into the {} bytes of their bufferView",
-                        accessor.count, element, view.byteLength),
-            "the file was cut off or its exporter is at fault; export it again");
-  }
-  const std::size_t offset = view.byteOffset + accessor.byteOffset;
-  return {buffer.data.data() + offset, stride, accessor.count, offset, view.buffer};
+std::size_t accessor_count(const GltfDocument& document, int accessor, const std::string& pointer) {
+  return accessor_at(document, accessor, pointer).count;
 }
 
 int accessor_columns(const GltfDocument& document, int accessor, const std::string& pointer) {
@@ -113,63 +273,53 @@ int accessor_columns(const GltfDocument& document, int accessor, const std::stri
   return tinygltf::GetNumComponentsInType(static_cast<std::uint32_t>(type));
 }
 
-std::vector<float> read_floats(const GltfDocument& document, int accessor, int columns,
+std::vector<float> read_floats(const GltfDocument& document, int index, int columns,
                                const std::string& pointer) {
-  check_components(document, accessor, columns, pointer);
-  const ElementSpan span = element_span(document, accessor, pointer);
-  const int type = accessor_at(document, accessor, pointer).componentType;
-  const int size = tinygltf::GetComponentSizeInBytes(static_cast<std::uint32_t>(type));
-  const auto width = static_cast<std::size_t>(columns);
-  std::vector<float> values(span.count * width);
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    const unsigned char* element = span.first + (i / width) * span.stride;
-    values[i] = component_value(element + (i % width) * static_cast<std::size_t>(size), type);
-    if (std::isfinite(values[i])) continue;
-    fail_at(document, pointer, "gltf.not-finite",
-            fmt::format("element {} of accessor {} is not a finite number", i / width, accessor));
-  }
+  check_components(document, index, columns, pointer);
+  const ElementSpan span = element_span(document, index, pointer);
+  std::vector<float> values(span.count * static_cast<std::size_t>(columns));
+  read_numbers(document, index, span, pointer, values.data());
   return values;
 }
 
-Float3s read_float3s(const GltfDocument& document, int index, const std::string& pointer) {
-  if (const int type = accessor_at(document, index, pointer).componentType;
-      type != TINYGLTF_COMPONENT_TYPE_FLOAT) {
-    fail_at(document, pointer, "gltf.unsupported-accessor",
-            fmt::format("accessor {} has component type {}; only float (5126) is supported", index,
-                        type),
-            "export without quantisation");
-  }
-  const std::vector<float> values = read_floats(document, index, 3, pointer);
-  return Eigen::Map<const Float3s>(values.data(), static_cast<Eigen::Index>(values.size() / 3), 3);
+Float2s read_float2s(const GltfDocument& document, int index, const std::string& pointer) {
+  return read_rows<Float2s>(document, index, pointer);
 }
 
-TriangleIndices read_triangles(const GltfDocument& document, int index, std::size_t vertex_count,
-                               const std::string& pointer) {
+Float3s read_float3s(const GltfDocument& document, int index, const std::string& pointer) {
+  return read_rows<Float3s>(document, index, pointer);
+}
+
+std::vector<std::uint32_t> read_indices(const GltfDocument& document, int index,
+                                        const std::string& pointer) {
   const tinygltf::Accessor& accessor = accessor_at(document, index, pointer);
-  const ElementSpan span = element_span(document, index, pointer);
-  const int type = accessor.componentType;
-  const int size = type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE    ? 1
-                   : type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT ? 2
-                   : type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT   ? 4
-                                                                    : 0;
-  if (size == 0 || accessor.type != TINYGLTF_TYPE_SCALAR || span.count % 3 != 0) {
+  if (!is_unsigned(accessor.componentType) || accessor.type != TINYGLTF_TYPE_SCALAR) {
     fail_at(document, pointer, "gltf.accessor",
-            fmt::format(
-                "accessor {} holds no triangles: it needs a multiple of 3 unsigned scalars, not {}",
-                index, span.count));
+            fmt::format("accessor {} holds no indices: it needs unsigned scalars", index));
   }
-  TriangleIndices triangles(static_cast<Eigen::Index>(span.count / 3), 3);
-  for (std::size_t i = 0; i < span.count; ++i) {
-    std::uint32_t vertex = 0;
-    std::memcpy(&vertex, span.first + i * span.stride, static_cast<std::size_t>(size));
-    if (vertex >= vertex_count) {
-      fail_at(document, pointer, "gltf.accessor",
-              fmt::format("index {} of accessor {} is {}, but there are {} vertices", i, index,
-                          vertex, vertex_count));
-    }
-    triangles.data()[i] = static_cast<int>(vertex);
+  const std::size_t width = component_bytes(accessor.componentType);
+  std::vector<std::uint32_t> indices =
+      convert_unsigned(element_span(document, index, pointer), width, 1);
+  if (!is_sparse(document, index)) return indices;
+  const SparseElements sparse = sparse_elements(document, index, width);
+  const std::vector<std::uint32_t> values = convert_unsigned(sparse.values, width, 1);
+  for (std::size_t i = 0; i < values.size(); ++i) indices[sparse.rows[i]] = values[i];
+  return indices;
+}
+
+std::vector<std::uint32_t> read_joints(const GltfDocument& document, int index,
+                                       const std::string& pointer) {
+  const tinygltf::Accessor& accessor = accessor_at(document, index, pointer);
+  const bool is_small = accessor.componentType == TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE ||
+                        accessor.componentType == TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT;
+  if (!is_small || accessor.type != TINYGLTF_TYPE_VEC4 || is_sparse(document, index)) {
+    fail_at(document, pointer, "gltf.accessor",
+            fmt::format("accessor {} holds no joints: it needs four unsigned bytes or shorts an "
+                        "element",
+                        index));
   }
-  return triangles;
+  return convert_unsigned(element_span(document, index, pointer),
+                          component_bytes(accessor.componentType), 4);
 }
 
 }  // namespace morphbake

@@ -11,33 +11,37 @@
 
 namespace morphbake {
 
-/// Where an accessor's elements lie, checked to be inside their buffer.
-struct ElementSpan {
-  const unsigned char* first = nullptr;
-  std::size_t stride = 0;
-  std::size_t count = 0;
-  std::size_t offset_in_buffer = 0;
-  int buffer = 0;
-};
-
-/// @param pointer  the place that names the accessor, for messages
-/// @throws BakeError "gltf.accessor" out of range, "gltf.unsupported-accessor" sparse
-ElementSpan element_span(const GltfDocument& document, int accessor, const std::string& pointer);
-
-/// The accessor's VEC3 elements, stored as floats (not as normalised integers), all finite.
-/// @throws BakeError "gltf.accessor", "gltf.unsupported-accessor", "gltf.not-finite"
-Float3s read_float3s(const GltfDocument& document, int accessor, const std::string& pointer);
-
-/// The accessor's elements of `columns` numbers each, row by row; normalised integers become
-/// floats.
-std::vector<float> read_floats(const GltfDocument& document, int accessor, int columns,
-                               const std::string& pointer);
+/// Elements of an accessor.
+/// @throws BakeError "gltf.accessor" when it does not exist
+std::size_t accessor_count(const GltfDocument& document, int accessor, const std::string& pointer);
 
 /// Numbers an element of the accessor has: 1 for SCALAR to 16 for MAT4.
 int accessor_columns(const GltfDocument& document, int accessor, const std::string& pointer);
 
-/// Triangle indices of a primitive, each below `vertex_count`.
-TriangleIndices read_triangles(const GltfDocument& document, int accessor, std::size_t vertex_count,
+/// The accessor's elements of `columns` numbers each, row by row: floats, or integers, which become
+/// fractions when they are normalised (glTF 2.0, 3.6.2.2). Sparse elements are put in; without a
+/// bufferView the others are 0.
+///
+/// @param pointer  the place that names the accessor, for messages
+/// @throws BakeError "gltf.accessor" out of range or of another kind, "gltf.too-large",
+///         "gltf.not-finite"
+std::vector<float> read_floats(const GltfDocument& document, int accessor, int columns,
                                const std::string& pointer);
+
+/// As read_floats, of VEC2 and VEC3 elements.
+Float2s read_float2s(const GltfDocument& document, int accessor, const std::string& pointer);
+Float3s read_float3s(const GltfDocument& document, int accessor, const std::string& pointer);
+
+/// Unsigned SCALARs.
+///
+/// @throws BakeError "gltf.accessor", "gltf.too-large"
+std::vector<std::uint32_t> read_indices(const GltfDocument& document, int accessor,
+                                        const std::string& pointer);
+
+/// VEC4 of unsigned numbers: JOINTS_n, row by row.
+///
+/// @throws BakeError "gltf.accessor", "gltf.too-large"
+std::vector<std::uint32_t> read_joints(const GltfDocument& document, int accessor,
+                                       const std::string& pointer);
 
 }  // namespace morphbake

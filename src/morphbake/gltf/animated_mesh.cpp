@@ -7,20 +7,15 @@
 #include <map>
 
 #include "morphbake/gltf/accessors.h"
+#include "morphbake/gltf/animation_curve.h"
 #include "morphbake/gltf/nodes.h"
-#include "morphbake/gltf/source_geometry.h"
+#include "morphbake/gltf/primitive_geometry.h"
+#include "morphbake/gltf/size_limits.h"
 
 namespace morphbake {
 namespace {
 
 using Attributes = std::map<std::string, int>;
-
-Float3s read_optional_float3s(const GltfDocument& document, const Attributes& attributes,
-                              const std::string& name, const std::string& pointer) {
-  const auto found = attributes.find(name);
-  if (found == attributes.end()) return {};
-  return read_float3s(document, found->second, pointer + "/" + name);
-}
 
 Float3s read_colours(const GltfDocument& document, const Attributes& attributes,
                      const std::string& pointer) {
@@ -39,11 +34,52 @@ Float2s read_texture_coordinates(const GltfDocument& document, const Attributes&
   const std::string name = fmt::format("TEXCOORD_{}", set);
   const auto found = attributes.find(name);
   if (found == attributes.end()) return {};
-  const std::vector<float> values = read_floats(document, found->second, 2, pointer + "/" + name);
-  return Eigen::Map<const Float2s>(values.data(), static_cast<Eigen::Index>(values.size() / 2), 2);
+  return read_float2s(document, found->second, pointer + "/" + name);
 }
 
-/// Index into mesh.images of a texture's picture, whose bytes are added when new; -1 for none.
+/// A number of a texture's transform, `otherwise` where it says nothing.
+double number_or(const tinygltf::Value& value, double otherwise) {
+  return value.IsNumber() ? value.GetNumberAsDouble() : otherwise;
+}
+
+Eigen::Vector2d pair_or(const tinygltf::Value& value, const Eigen::Vector2d& otherwise) {
+  if (!value.IsArray() || value.ArrayLen() != 2) return otherwise;
+  return {number_or(value.Get(0), otherwise.x()), number_or(value.Get(1), otherwise.y())};
+}
+
+/// Where a texture's coordinates come from, and what is done to them.
+struct TexturePlacement {
+  int set = 0;
+  Eigen::Matrix2d linear = Eigen::Matrix2d::Identity();
+  Eigen::Vector2d offset = Eigen::Vector2d::Zero();
+};
+
+/// KHR_texture_transform: translation * rotation * scale.
+TexturePlacement placement_of(const tinygltf::TextureInfo& texture) {
+  TexturePlacement placement;
+  placement.set = texture.texCoord;
+  const auto found = texture.extensions.find("KHR_texture_transform");
+  if (found == texture.extensions.end() || !found->second.IsObject()) return placement;
+  const tinygltf::Value& transform = found->second;
+  const double angle = number_or(transform.Get("rotation"), 0);
+  const Eigen::Vector2d scale = pair_or(transform.Get("scale"), Eigen::Vector2d::Ones());
+  Eigen::Matrix2d rotation;
+  rotation << std::cos(angle), std::sin(angle), -std::sin(angle), std::cos(angle);
+  placement.linear = rotation * scale.asDiagonal();
+  placement.offset = pair_or(transform.Get("offset"), Eigen::Vector2d::Zero());
+  if (const tinygltf::Value& set = transform.Get("texCoord"); set.IsInt()) {
+    placement.set = set.GetNumberAsInt();
+  }
+  return placement;
+}
+
+Float2s placed(const Float2s& coordinates, const TexturePlacement& placement) {
+  const bool stays = placement.linear.isIdentity(0) && placement.offset.isZero(0);
+  if (stays) return coordinates;
+  const Eigen::Matrix2f turned = placement.linear.transpose().cast<float>();
+  return (coordinates * turned).rowwise() + placement.offset.transpose().cast<float>();
+}
+
 /// Which images of the file a mesh uses, each once.
 struct UsedImages {
   std::map<int, int> index;        ///< the file's -> one of `bytes`
@@ -51,6 +87,7 @@ struct UsedImages {
   std::vector<std::string> names;  ///< for messages
 };
 
+/// Index of a texture's picture, whose bytes are added when new; -1 for none.
 int add_image(const GltfDocument& document, int texture, UsedImages& images) {
   const tinygltf::Model& model = document.model;
   if (texture < 0 || static_cast<std::size_t>(texture) >= model.textures.size()) return -1;
@@ -66,6 +103,13 @@ int add_image(const GltfDocument& document, int texture, UsedImages& images) {
   return entry->second;
 }
 
+void check_rows(const GltfDocument& document, Eigen::Index rows, Eigen::Index expected,
+                const std::string& pointer) {
+  if (rows == 0 || rows == expected) return;
+  fail_at(document, pointer, "gltf.accessor",
+          fmt::format("the attribute has {} elements for {} positions", rows, expected));
+}
+
 void read_material(const GltfDocument& document, const tinygltf::Primitive& source,
                    const std::string& pointer, UsedImages& images, AnimatedPrimitive& primitive) {
   const auto& materials = document.model.materials;
@@ -77,152 +121,83 @@ void read_material(const GltfDocument& document, const tinygltf::Primitive& sour
   }
   primitive.image = add_image(document, surface.baseColorTexture.index, images);
   if (primitive.image < 0) return;
-  primitive.texture_coordinates = read_texture_coordinates(
-      document, source.attributes, surface.baseColorTexture.texCoord, pointer + "/attributes");
+  const TexturePlacement placement = placement_of(surface.baseColorTexture);
+  const std::string place = pointer + "/attributes";
+  primitive.texture_coordinates = placed(
+      read_texture_coordinates(document, source.attributes, placement.set, place), placement);
+  check_rows(document, primitive.texture_coordinates.rows(), primitive.positions.rows(),
+             fmt::format("{}/TEXCOORD_{}", place, placement.set));
   if (primitive.texture_coordinates.rows() == 0) primitive.image = -1;
-}
-
-void check_rows(const GltfDocument& document, const Float3s& rows, Eigen::Index expected,
-                const std::string& pointer) {
-  if (rows.rows() == 0 || rows.rows() == expected) return;
-  fail_at(document, pointer, "gltf.accessor",
-          fmt::format("an attribute has {} elements for {} positions", rows.rows(), expected));
 }
 
 AnimatedPrimitive read_primitive(const GltfDocument& document, const tinygltf::Primitive& source,
                                  const std::string& pointer) {
-  if ((source.mode != -1 && source.mode != TINYGLTF_MODE_TRIANGLES) || source.indices < 0) {
-    fail_at(document, pointer, "gltf.unsupported-primitive",
-            "only indexed triangles are supported");
-  }
+  PrimitiveGeometry geometry = read_primitive_geometry(document, source, pointer);
   AnimatedPrimitive primitive;
-  primitive.positions =
-      read_optional_float3s(document, source.attributes, "POSITION", pointer + "/attributes");
-  primitive.normals =
-      read_optional_float3s(document, source.attributes, "NORMAL", pointer + "/attributes");
+  primitive.positions = std::move(geometry.positions);
+  primitive.normals = std::move(geometry.normals);
+  primitive.triangles = std::move(geometry.triangles);
+  const Eigen::Index vertices = primitive.positions.rows();
   primitive.colours = read_colours(document, source.attributes, pointer + "/attributes");
-  const Eigen::Index count = primitive.positions.rows();
-  check_rows(document, primitive.normals, count, pointer + "/attributes/NORMAL");
-  check_rows(document, primitive.colours, count, pointer + "/attributes/COLOR_0");
-  primitive.triangles = read_triangles(document, source.indices, static_cast<std::size_t>(count),
-                                       pointer + "/indices");
+  check_rows(document, primitive.colours.rows(), vertices, pointer + "/attributes/COLOR_0");
   for (std::size_t t = 0; t < source.targets.size(); ++t) {
-    const std::string place = fmt::format("{}/targets/{}", pointer, t);
-    primitive.target_positions.push_back(
-        read_optional_float3s(document, source.targets[t], "POSITION", place));
-    primitive.target_normals.push_back(
-        read_optional_float3s(document, source.targets[t], "NORMAL", place));
-    check_rows(document, primitive.target_positions.back(), count, place + "/POSITION");
-    check_rows(document, primitive.target_normals.back(), count, place + "/NORMAL");
+    TargetGeometry target = read_target(document, source, t, vertices, pointer);
+    primitive.target_positions.push_back(std::move(target.positions));
+    primitive.target_normals.push_back(std::move(target.normals));
   }
   return primitive;
 }
 
-std::vector<std::string> read_target_names(const tinygltf::Mesh& mesh, std::size_t count) {
-  std::vector<std::string> names(count);
-  if (!mesh.extras.IsObject() || !mesh.extras.Has("targetNames")) return names;
-  const tinygltf::Value& list = mesh.extras.Get("targetNames");
-  if (!list.IsArray()) return names;
-  for (std::size_t t = 0; t < std::min(count, list.ArrayLen()); ++t) {
-    const tinygltf::Value& name = list.Get(static_cast<int>(t));
-    if (name.IsString()) names[t] = name.Get<std::string>();
-  }
-  return names;
-}
-
-void read_rest_weights(const tinygltf::Node& node, const tinygltf::Mesh& source,
-                       AnimatedMesh& mesh) {
-  const auto count = static_cast<Eigen::Index>(mesh.target_names.size());
-  const std::vector<double>& weights = node.weights.empty() ? source.weights : node.weights;
-  mesh.key_weights = Eigen::MatrixXf::Zero(1, count);
-  const Eigen::Index known = std::min(count, static_cast<Eigen::Index>(weights.size()));
-  mesh.key_weights.row(0).head(known) =
-      Eigen::Map<const Eigen::RowVectorXd>(weights.data(), known).cast<float>();
-}
-
-/// The first animation that moves the weights of `node`.
-void read_weights_animation(const GltfDocument& document, int node, AnimatedMesh& mesh) {
-  const auto count = static_cast<int>(mesh.target_names.size());
+/// The first animation that moves the weights of `node`; those at rest when there is none.
+AnimationCurve read_weights(const GltfDocument& document, int node, const Eigen::VectorXd& rest) {
+  const auto count = static_cast<int>(rest.size());
   for (std::size_t a = 0; count > 0 && a < document.model.animations.size(); ++a) {
-    const tinygltf::Animation& animation = document.model.animations[a];
-    for (const tinygltf::AnimationChannel& channel : animation.channels) {
+    for (const tinygltf::AnimationChannel& channel : document.model.animations[a].channels) {
       if (channel.target_node != node || channel.target_path != "weights") continue;
-      const std::string pointer = fmt::format("/animations/{}/samplers/{}", a, channel.sampler);
-      if (channel.sampler < 0 ||
-          static_cast<std::size_t>(channel.sampler) >= animation.samplers.size()) {
-        fail_at(document, pointer, "gltf.invalid", "the sampler does not exist");
-      }
-      const auto& sampler = animation.samplers[static_cast<std::size_t>(channel.sampler)];
-      if (sampler.interpolation != "LINEAR") {
-        fail_at(
-            document, pointer + "/interpolation", "gltf.unsupported-animation",
-            fmt::format("weights with {} interpolation are not supported", sampler.interpolation));
-      }
-      const std::vector<float> times = read_floats(document, sampler.input, 1, pointer + "/input");
-      const std::vector<float> weights =
-          read_floats(document, sampler.output, 1, pointer + "/output");
-      if (weights.size() != times.size() * static_cast<std::size_t>(count)) {
-        fail_at(document, pointer + "/output", "gltf.accessor",
-                fmt::format("{} weights for {} keys of {} targets", weights.size(), times.size(),
-                            count));
-      }
-      mesh.key_times = times;
-      using Rows = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-      mesh.key_weights =
-          Eigen::Map<const Rows>(weights.data(), static_cast<Eigen::Index>(times.size()), count);
-      return;
+      return read_curve(document, static_cast<int>(a), channel.sampler, count);
     }
   }
+  AnimationCurve curve;
+  curve.values = rest.transpose().cast<float>();
+  return curve;
 }
 
 }  // namespace
 
-AnimatedMesh read_animated_mesh(const std::filesystem::path& file) {
-  return read_animated_mesh(open_gltf(file));
+AnimatedMesh read_animated_mesh(const std::filesystem::path& file, const MeshChoice& choice) {
+  return read_animated_mesh(open_gltf(file), choice);
 }
 
-AnimatedMesh read_animated_mesh(const GltfFile& file) {
+AnimatedMesh read_animated_mesh(const GltfFile& file, const MeshChoice& choice) {
   const GltfDocument& document = *file;
-  const std::vector<MeshNode> nodes = find_mesh_nodes(document);
-  const auto& meshes = document.model.meshes;
-  if (nodes.empty() || nodes[0].mesh < 0 ||
-      static_cast<std::size_t>(nodes[0].mesh) >= meshes.size()) {
-    fail_at(document, "/nodes", "gltf.no-mesh", "no node of the scene has a mesh");
-  }
-  const MeshNode& at = nodes.front();
-  const tinygltf::Mesh& source = meshes[static_cast<std::size_t>(at.mesh)];
+  const MeshNode at = choose_mesh_node(document, choice, Ambiguity::TakeFirst);
+  check_mesh_size(document, at.mesh);
+  const tinygltf::Mesh& source = document.model.meshes[static_cast<std::size_t>(at.mesh)];
+  const std::size_t targets = target_count(document, at.mesh);
   AnimatedMesh mesh;
+  mesh.node = at.node;
   mesh.to_scene = at.to_scene;
   UsedImages images;
-  std::size_t target_count = 0;
   for (std::size_t p = 0; p < source.primitives.size(); ++p) {
     const std::string pointer = primitive_pointer(at.mesh, p);
     mesh.primitives.push_back(read_primitive(document, source.primitives[p], pointer));
     read_material(document, source.primitives[p], pointer, images, mesh.primitives.back());
-    target_count = std::max(target_count, source.primitives[p].targets.size());
   }
   mesh.images = std::move(images.bytes);
   mesh.image_names = std::move(images.names);
-  mesh.target_names = read_target_names(source, target_count);
-  read_rest_weights(document.model.nodes[static_cast<std::size_t>(at.node)], source, mesh);
-  read_weights_animation(document, at.node, mesh);
+  mesh.target_names = target_names(source, targets);
+  const tinygltf::Node& node = document.model.nodes[static_cast<std::size_t>(at.node)];
+  mesh.weights = read_weights(document, at.node, rest_weights(node, source, targets));
   return mesh;
 }
 
 Eigen::VectorXd interpolate_keys(const std::vector<float>& times, const Eigen::MatrixXf& weights,
                                  double time) {
-  const auto after = std::upper_bound(times.begin(), times.end(), time);
-  if (after == times.begin()) return weights.row(0).cast<double>();
-  if (after == times.end()) return weights.row(weights.rows() - 1).cast<double>();
-  const Eigen::Index next = after - times.begin();
-  const double begin = *(after - 1);
-  const double share = (time - begin) / (*after - begin);
-  return (1 - share) * weights.row(next - 1).cast<double>() +
-         share * weights.row(next).cast<double>();
+  return value_at({times, weights, Interpolation::Linear, {}, {}}, time);
 }
 
 Eigen::VectorXd weights_at(const AnimatedMesh& mesh, double time) {
-  return interpolate_keys(mesh.key_times, mesh.key_weights, time);
+  return value_at(mesh.weights, time);
 }
 
 }  // namespace morphbake

@@ -6,12 +6,27 @@
 #include <vector>
 
 #include "morphbake/gltf/gltf_file.h"
+#include "morphbake/gltf/mesh_choice.h"
 
 namespace morphbake {
 
 using Float2s = Eigen::Matrix<float, Eigen::Dynamic, 2, Eigen::RowMajor>;
 using Float3s = Eigen::Matrix<float, Eigen::Dynamic, 3, Eigen::RowMajor>;
 using TriangleIndices = Eigen::Matrix<int, Eigen::Dynamic, 3, Eigen::RowMajor>;
+
+enum class Interpolation { Linear, Step, CubicSpline };
+
+/// Numbers that change in time: an animation's sampler (glTF 2.0, 3.11).
+struct AnimationCurve {
+  std::vector<float> times;  ///< seconds, rising; empty: the first row of values stands
+  Eigen::MatrixXf values;    ///< #times (1 without any) by #numbers
+  Interpolation interpolation = Interpolation::Linear;
+  Eigen::MatrixXf in_tangents;   ///< as values for CubicSpline, else empty: a second
+  Eigen::MatrixXf out_tangents;  ///< likewise
+};
+
+/// The numbers at `time`: constant before the first key and after the last.
+Eigen::VectorXd value_at(const AnimationCurve& curve, double time);
 
 /// One glTF primitive as a viewer sees it, in mesh space.
 struct AnimatedPrimitive {
@@ -28,24 +43,24 @@ struct AnimatedPrimitive {
 
 /// A node's mesh with its morph targets and their weights animation: what a viewer plays.
 struct AnimatedMesh {
+  int node = 0;  ///< of the file
   std::vector<AnimatedPrimitive> primitives;
   Eigen::Matrix4d to_scene = Eigen::Matrix4d::Identity();  ///< global transform of the node
   std::vector<std::string> target_names;  ///< one a target, "" when the file names none
   std::vector<std::string> images;        ///< encoded bytes (PNG, JPEG) of the images that are used
   std::vector<std::string> image_names;   ///< one an image, for messages: "a.glb#/images/0"
-  std::vector<float> key_times;           ///< seconds, rising; empty without animation
-  Eigen::MatrixXf
-      key_weights;  ///< #keys (one row of rest weights without animation) by #targets, LINEAR
+  AnimationCurve weights;  ///< one number a target; without animation the weights at rest
 };
 
-/// Reads the first node with a mesh from a .glb or .gltf, with targets and weights animation.
+/// Reads a node's mesh from a .glb or .gltf, with its targets and the first animation of their
+/// weights. Skins are at rest: the mesh is as it was bound.
 ///
-/// @throws BakeError "gltf...." as read_gltf
-AnimatedMesh read_animated_mesh(const std::filesystem::path& file);
-AnimatedMesh read_animated_mesh(const GltfFile& file);
+/// @param choice  which node: none chosen is the first of the scene that has a mesh
+/// @throws BakeError "gltf...." as open_gltf, choose_mesh_node and read_source_geometry
+AnimatedMesh read_animated_mesh(const std::filesystem::path& file, const MeshChoice& choice = {});
+AnimatedMesh read_animated_mesh(const GltfFile& file, const MeshChoice& choice = {});
 
-/// Weights at `time`: linear between keys, constant before the first and after the last
-/// (glTF 2.0, 3.11).
+/// Weights at `time`: linear between keys, constant before the first and after the last.
 ///
 /// @param times    seconds, rising; without any the first row stands
 /// @param weights  #keys (1 without times) by #targets

@@ -10,6 +10,8 @@
 
 #include "morphbake/diagnostics/problem.h"
 #include "morphbake/files/files.h"
+#include "morphbake/gltf/size_limits.h"
+#include "morphbake/gltf/unpack.h"
 #include "morphbake/json/explain.h"
 #include "morphbake/json/schema.h"
 
@@ -21,14 +23,35 @@ namespace {
 // tinygltf counts bytes in 32 bits.
 constexpr std::uintmax_t kFileSizeLimit = (std::uintmax_t{1} << 32) - 1;
 
-// What a source may require and still be read right: these change how a surface looks, not its
-// shape.
-constexpr std::array kReadableExtensions = {
-    "KHR_materials_unlit",        "KHR_materials_clearcoat",  "KHR_materials_emissive_strength",
-    "KHR_materials_ior",          "KHR_materials_sheen",      "KHR_materials_specular",
-    "KHR_materials_transmission", "KHR_materials_volume",     "KHR_materials_iridescence",
-    "KHR_materials_anisotropy",   "KHR_materials_dispersion", "KHR_materials_variants",
-    "KHR_lights_punctual"};
+// What a source may require and still be read right: forms that are read, and what changes how a
+// surface looks, not its shape.
+constexpr std::array kReadableExtensions = {"KHR_mesh_quantization",
+                                            "KHR_draco_mesh_compression",
+                                            "EXT_meshopt_compression",
+                                            "KHR_texture_transform",
+                                            "KHR_texture_basisu",
+                                            "EXT_texture_webp",
+                                            "EXT_texture_avif",
+                                            "MSFT_texture_dds",
+                                            "KHR_materials_unlit",
+                                            "KHR_materials_clearcoat",
+                                            "KHR_materials_emissive_strength",
+                                            "KHR_materials_ior",
+                                            "KHR_materials_sheen",
+                                            "KHR_materials_specular",
+                                            "KHR_materials_pbrSpecularGlossiness",
+                                            "KHR_materials_transmission",
+                                            "KHR_materials_volume",
+                                            "KHR_materials_iridescence",
+                                            "KHR_materials_anisotropy",
+                                            "KHR_materials_dispersion",
+                                            "KHR_materials_diffuse_transmission",
+                                            "KHR_materials_variants",
+                                            "KHR_lights_punctual",
+                                            "KHR_animation_pointer",
+                                            "KHR_xmp_json_ld",
+                                            "EXT_mesh_gpu_instancing",
+                                            "EXT_lights_image_based"};
 
 std::uint32_t read_u32(const std::string& bytes, std::size_t offset) {
   std::uint32_t value = 0;
@@ -62,24 +85,13 @@ std::string json_chunk(const GltfDocument& document, const std::string& bytes) {
   return bytes.substr(kHeader + kChunkHeader, length);
 }
 
-std::string percent_decoded(const std::string& uri) {
-  std::string text;
-  for (std::size_t i = 0; i < uri.size(); ++i) {
-    unsigned value = 0;
-    const char* digits = uri.data() + i + 1;
-    const bool escaped = uri[i] == '%' && i + 2 < uri.size() &&
-                         std::from_chars(digits, digits + 2, value, 16).ptr == digits + 2;
-    text += escaped ? static_cast<char>(value) : uri[i];
-    if (escaped) i += 2;
-  }
-  return text;
-}
-
 /// Broken JSON in a source is a problem of the source, not of the recipe: "json.syntax" is
 /// "gltf.json-syntax".
 Json parse_source_json(const GltfDocument& document, const std::string& text) {
   try {
-    return parse_json(text, document.file.string());
+    // Data URIs are long; no pattern is ever matched against them.
+    const JsonLimits limits{text.size(), kMostJsonValues};
+    return parse_json(text, document.file.string(), limits);
   } catch (const BakeError& error) {
     std::vector<Problem> problems = error.problems();
     for (Problem& problem : problems) problem.code.replace(0, 5, "gltf.json-");
@@ -125,6 +137,33 @@ void check_fields(const GltfDocument& document) {
   if (!problems.empty()) throw BakeError(std::move(problems));
 }
 
+/// bufferViews lie in their buffers.
+void check_views(const GltfDocument& document) {
+  const Json& json = document.json;
+  const auto views = json.find("bufferViews");
+  if (views == json.end()) return;
+  const Json none = Json::array();
+  const auto found = json.find("buffers");
+  const Json& buffers = found == json.end() ? none : *found;
+  for (std::size_t v = 0; v < views->size(); ++v) {
+    const Json& view = (*views)[v];
+    const auto buffer = view.at("buffer").get<std::size_t>();
+    if (buffer >= buffers.size()) {
+      fail_at(document, array_pointer("bufferViews", v) + "/buffer", "gltf.invalid",
+              fmt::format("buffer {} does not exist; the file has {}", buffer, buffers.size()));
+    }
+    // Each is below 2^32: the sum cannot overflow.
+    const std::size_t end =
+        view.value("byteOffset", std::size_t{0}) + view.at("byteLength").get<std::size_t>();
+    const auto size = buffers[buffer].at("byteLength").get<std::size_t>();
+    if (end <= size) continue;
+    fail_at(
+        document, array_pointer("bufferViews", v), "gltf.invalid",
+        fmt::format("the bufferView ends at byte {} of buffer {}, which has {}", end, buffer, size),
+        "the file was cut off or its exporter is at fault; export it again");
+  }
+}
+
 void check_uris(const GltfDocument& document, const char* array) {
   const auto items = document.json.find(array);
   if (items == document.json.end() || !items->is_array()) return;
@@ -134,7 +173,7 @@ void check_uris(const GltfDocument& document, const char* array) {
     const std::string uri = item["uri"];
     if (uri.compare(0, 5, "data:") == 0) continue;
     const std::string pointer = array_pointer(array, i) + "/uri";
-    const fs::path target = inside_folder(document.file.parent_path(), percent_decoded(uri));
+    const fs::path target = inside_folder(document.file.parent_path(), uri_path(uri));
     if (target.empty()) {
       fail_at(document, pointer, "gltf.outside-folder",
               fmt::format("the URI \"{}\" leaves the folder of the glTF", uri),
@@ -176,6 +215,57 @@ bool keep_image(tinygltf::Image* image, int, std::string*, std::string*, int, in
   return true;
 }
 
+/// The binary chunk of a .glb whose JSON chunk was checked, or nothing.
+std::string_view binary_chunk(const GltfDocument& document, const std::string& bytes) {
+  constexpr std::size_t kHeader = 12, kChunkHeader = 8;
+  if (!is_binary(bytes)) return {};
+  const std::size_t at = kHeader + kChunkHeader + read_u32(bytes, kHeader);
+  if (at + kChunkHeader > bytes.size()) return {};
+  const std::uint32_t length = read_u32(bytes, at);
+  if (length > bytes.size() - at - kChunkHeader) {
+    fail_at(document, "", "gltf.truncated",
+            fmt::format("the second chunk of the .glb says that it has {} bytes, but {} follow",
+                        length, bytes.size() - at - kChunkHeader),
+            "the file was cut off or damaged; export or copy it again");
+  }
+  const bool is_bin = bytes.compare(at + 4, 4, std::string_view("BIN\0", 4)) == 0;
+  return is_bin ? std::string_view(bytes).substr(at + kChunkHeader, length) : std::string_view();
+}
+
+/// The bytes of a buffer that has a URI.
+std::string uri_bytes(const GltfDocument& document, const std::string& uri, std::size_t index) {
+  if (!uri.starts_with("data:")) {
+    const fs::path folder = document.file.parent_path();
+    return read_file(inside_folder(folder, uri_path(uri)), kFileSizeLimit);
+  }
+  std::vector<unsigned char> bytes;
+  std::string mime_type;
+  if (!tinygltf::DecodeDataURI(&bytes, mime_type, uri, 0, false)) {
+    fail_at(document, array_pointer("buffers", index) + "/uri", "gltf.invalid",
+            "the data URI cannot be decoded");
+  }
+  return {bytes.begin(), bytes.end()};
+}
+
+/// The bytes of all buffers; none of one that only stands in for what is compressed.
+std::vector<std::string> buffers_of(const GltfDocument& document, std::string_view binary) {
+  std::vector<std::string> buffers;
+  const auto found = document.json.find("buffers");
+  for (std::size_t b = 0; found != document.json.end() && b < found->size(); ++b) {
+    const Json& buffer = (*found)[b];
+    std::string content;
+    if (buffer.contains("uri")) {
+      content = uri_bytes(document, buffer["uri"].get<std::string>(), b);
+    } else if (b == 0) {
+      content = binary;
+    }
+    const auto size = buffer.at("byteLength").get<std::size_t>();
+    if (content.size() > size) content.resize(size);
+    buffers.push_back(std::move(content));
+  }
+  return buffers;
+}
+
 void parse_model(GltfDocument& document, const std::string& bytes) {
   fs::path folder = document.file.parent_path();
   tinygltf::TinyGLTF parser;
@@ -197,6 +287,19 @@ void parse_model(GltfDocument& document, const std::string& bytes) {
 }
 
 }  // namespace
+
+std::string uri_path(const std::string& uri) {
+  std::string text;
+  for (std::size_t i = 0; i < uri.size(); ++i) {
+    unsigned value = 0;
+    const char* digits = uri.data() + i + 1;
+    const bool escaped = uri[i] == '%' && i + 2 < uri.size() &&
+                         std::from_chars(digits, digits + 2, value, 16).ptr == digits + 2;
+    text += escaped ? static_cast<char>(value) : uri[i];
+    if (escaped) i += 2;
+  }
+  return text;
+}
 
 void fail_at(const GltfDocument& document, const std::string& pointer, const std::string& code,
              const std::string& message, const std::string& hint) {
@@ -221,11 +324,21 @@ GltfFile open_gltf_bytes(const std::string& bytes, const fs::path& name) {
   document->json =
       parse_source_json(*document, is_binary(bytes) ? json_chunk(*document, bytes) : bytes);
   check_version(*document);
+  check_list_sizes(*document);
   check_fields(*document);
   check_required_extensions(*document);
   check_uris(*document, "buffers");
   check_uris(*document, "images");
-  parse_model(*document, bytes);
+  check_views(*document);
+  check_buffer_sizes(*document, bytes.size());
+  const std::string_view binary = binary_chunk(*document, bytes);
+  if (is_packed(document->json)) {
+    const std::string unpacked = unpacked_glb(*document, buffers_of(*document, binary));
+    document->json = parse_source_json(*document, json_chunk(*document, unpacked));
+    parse_model(*document, unpacked);
+  } else {
+    parse_model(*document, bytes);
+  }
   return document;
 }
 

@@ -2,6 +2,9 @@
 
 // Internal to gltf/: what a GltfFile holds.
 
+// Images are kept as they are: tinygltf's own coders are not compiled in.
+#define TINYGLTF_NO_STB_IMAGE
+#define TINYGLTF_NO_STB_IMAGE_WRITE
 #include <tiny_gltf.h>
 
 #include <filesystem>
@@ -17,6 +20,9 @@ struct GltfDocument {
   Json json;              ///< as it stands in the file: what is kept is kept from here
   tinygltf::Model model;  ///< the same, typed, with the bytes of all buffers
 };
+
+/// The relative path that a URI names: its percent-encoding removed.
+std::string uri_path(const std::string& uri);
 
 /// @throws BakeError `code` at `pointer` of the glTF's JSON
 [[noreturn]] void fail_at(const GltfDocument& document, const std::string& pointer,

@@ -21,21 +21,66 @@ void append_u32(std::string& bytes, std::size_t value) {
 
 }  // namespace
 
+namespace {
+
+/// A list of the JSON's root, taken out of it.
+Json taken_list(Json& json, const char* name) {
+  const auto found = json.find(name);
+  if (found == json.end()) return Json::array();
+  Json list = std::move(*found);
+  json.erase(name);
+  return list;
+}
+
+/// Puts it back; glTF has no empty lists.
+void put_list(GlbDraft& draft, const char* name, Json& list) {
+  if (!list.empty()) draft.json[name] = std::move(list);
+}
+
+/// The fields of the buffer: those of the only one that there was, if it was one.
+Json one_buffer(const GlbDraft& draft) {
+  const auto buffers = draft.json.find("buffers");
+  Json buffer =
+      buffers != draft.json.end() && buffers->size() == 1 ? buffers->front() : Json::object();
+  buffer.erase("uri");
+  buffer["byteLength"] = draft.binary.size();
+  return buffer;
+}
+
+}  // namespace
+
+GlbDraft join_buffers(Json json, const std::vector<std::string_view>& buffers) {
+  GlbDraft draft;
+  draft.json = std::move(json);
+  draft.views = taken_list(draft.json, "bufferViews");
+  draft.accessors = taken_list(draft.json, "accessors");
+  std::vector<std::size_t> begins;
+  for (const std::string_view buffer : buffers) {
+    draft.align();
+    begins.push_back(draft.binary.size());
+    draft.binary.append(buffer);
+  }
+  for (Json& view : draft.views) {
+    const std::size_t begin = begins.at(view.at("buffer").get<std::size_t>());
+    view["buffer"] = 0;
+    if (begin > 0) view["byteOffset"] = begin + view.value("byteOffset", std::size_t{0});
+  }
+  return draft;
+}
+
 int append_view(GlbDraft& draft, const void* data, std::size_t byte_count, BufferUse use) {
   draft.align();
   Json view = {{"buffer", 0}, {"byteOffset", draft.binary.size()}, {"byteLength", byte_count}};
   if (use == BufferUse::Vertices) view["target"] = kArrayBuffer;
   if (use == BufferUse::Indices) view["target"] = kElementArrayBuffer;
   draft.binary.append(static_cast<const char*>(data), byte_count);
-  Json& views = draft.json["bufferViews"];
-  views.push_back(std::move(view));
-  return static_cast<int>(views.size()) - 1;
+  draft.views.push_back(std::move(view));
+  return static_cast<int>(draft.views.size()) - 1;
 }
 
 int append_accessor(GlbDraft& draft, Json accessor) {
-  Json& accessors = draft.json["accessors"];
-  accessors.push_back(std::move(accessor));
-  return static_cast<int>(accessors.size()) - 1;
+  draft.accessors.push_back(std::move(accessor));
+  return static_cast<int>(draft.accessors.size()) - 1;
 }
 
 int append_vectors(GlbDraft& draft, const Float3s& rows) {
@@ -52,10 +97,17 @@ int append_vectors(GlbDraft& draft, const Float3s& rows) {
 
 std::string glb_bytes(GlbDraft& draft, const std::filesystem::path& shown) {
   draft.align();
-  draft.json["buffers"] = Json::array({{{"byteLength", draft.binary.size()}}});
+  if (draft.binary.empty()) {
+    draft.json.erase("buffers");
+  } else {
+    draft.json["buffers"] = Json::array({one_buffer(draft)});
+  }
+  put_list(draft, "bufferViews", draft.views);
+  put_list(draft, "accessors", draft.accessors);
   std::string text = draft.json.dump();
   text.resize((text.size() + 3) / 4 * 4, ' ');
-  const std::size_t total = 12 + 8 + text.size() + 8 + draft.binary.size();
+  const std::size_t chunk = draft.binary.empty() ? 0 : 8 + draft.binary.size();
+  const std::size_t total = 12 + 8 + text.size() + chunk;
   if (total > std::numeric_limits<std::uint32_t>::max()) {
     throw BakeError(
         Problem{Severity::Error,
@@ -65,10 +117,12 @@ std::string glb_bytes(GlbDraft& draft, const std::filesystem::path& shown) {
                 "use \"targets\": \"tracks\" or fewer frames"});
   }
   std::string bytes = "glTF";
+  bytes.reserve(total);
   append_u32(bytes, 2);
   append_u32(bytes, total);
   append_u32(bytes, text.size());
   bytes += "JSON" + text;
+  if (draft.binary.empty()) return bytes;
   append_u32(bytes, draft.binary.size());
   bytes.append("BIN\0", 4);
   bytes += draft.binary;

@@ -4,6 +4,8 @@
 
 #include <filesystem>
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include "morphbake/gltf/animated_mesh.h"
 #include "morphbake/json/json.h"
@@ -12,9 +14,12 @@ namespace morphbake {
 
 constexpr int kFloatComponent = 5126;
 
-/// Its JSON and its one buffer.
+/// Its JSON and its one buffer. bufferViews and accessors stand by themselves, so that adding some
+/// leaves references into the rest of the JSON alone.
 struct GlbDraft {
   Json json;
+  Json views = Json::array();
+  Json accessors = Json::array();
   std::string binary;
 
   void align() { binary.resize((binary.size() + 3) / 4 * 4, '\0'); }
@@ -40,6 +45,12 @@ Json column_maxima(const Rows& rows) {
   }
   return numbers;
 }
+
+/// All of a file, its buffers one after the other as buffer 0.
+///
+/// @param json     of the file, which has `buffers.size()` buffers or fewer
+/// @param buffers  their bytes
+GlbDraft join_buffers(Json json, const std::vector<std::string_view>& buffers);
 
 /// Appends bytes as a bufferView of its own; returns its index.
 int append_view(GlbDraft& draft, const void* data, std::size_t byte_count, BufferUse use);

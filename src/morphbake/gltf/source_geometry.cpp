@@ -3,80 +3,16 @@
 #include <fmt/core.h>
 
 #include <Eigen/LU>
-#include <cmath>
 
-#include "morphbake/gltf/accessors.h"
+#include "morphbake/gltf/moment.h"
+#include "morphbake/gltf/names.h"
 #include "morphbake/gltf/nodes.h"
+#include "morphbake/gltf/primitive_geometry.h"
+#include "morphbake/gltf/size_limits.h"
+#include "morphbake/gltf/skin.h"
 
 namespace morphbake {
 namespace {
-
-MeshNode only_mesh_node(const GltfDocument& document) {
-  const std::vector<MeshNode> nodes = find_mesh_nodes(document);
-  if (nodes.empty()) {
-    fail_at(document, "/nodes", "gltf.no-mesh", "no node of the scene has a mesh",
-            "export the mesh that is to be morphed");
-  }
-  if (nodes.size() > 1) {
-    fail_at(document, fmt::format("/nodes/{}", nodes[1].node), "gltf.several-meshes",
-            fmt::format("the scene has {} nodes with a mesh; only one is supported", nodes.size()),
-            "export the mesh that is to be morphed alone, or join the meshes");
-  }
-  return nodes.front();
-}
-
-void check_node(const GltfDocument& document, const MeshNode& at) {
-  const tinygltf::Node& node = document.model.nodes[static_cast<std::size_t>(at.node)];
-  if (node.skin >= 0) {
-    fail_at(document, fmt::format("/nodes/{}/skin", at.node), "gltf.unsupported-skin",
-            "skinned meshes are not supported", "export the mesh without its armature");
-  }
-  const double determinant = at.to_scene.topLeftCorner<3, 3>().determinant();
-  if (!(std::abs(determinant) > 1e-30)) {
-    fail_at(document, fmt::format("/nodes/{}", at.node), "gltf.singular-transform",
-            "the node's transform flattens the mesh (determinant 0)",
-            "apply the transform and export again");
-  }
-}
-
-PrimitiveGeometry read_primitive(const GltfDocument& document, const tinygltf::Primitive& primitive,
-                                 const std::string& pointer) {
-  if (primitive.mode != -1 && primitive.mode != TINYGLTF_MODE_TRIANGLES) {
-    fail_at(
-        document, pointer + "/mode", "gltf.unsupported-primitive",
-        fmt::format("primitive mode {} is not supported; only triangles (4) are", primitive.mode),
-        "export triangles");
-  }
-  if (primitive.indices < 0) {
-    fail_at(document, pointer, "gltf.unsupported-primitive",
-            "primitives without indices are not supported", "export indexed triangles");
-  }
-  if (!primitive.targets.empty()) {
-    fail_at(document, pointer + "/targets", "gltf.unsupported-targets",
-            "sources that already have morph targets are not supported",
-            "export without shape keys, or apply them first");
-  }
-  const auto position = primitive.attributes.find("POSITION");
-  if (position == primitive.attributes.end()) {
-    fail_at(document, pointer + "/attributes", "gltf.unsupported-primitive",
-            "the primitive has no POSITION");
-  }
-  PrimitiveGeometry geometry;
-  geometry.positions = read_float3s(document, position->second, pointer + "/attributes/POSITION");
-  if (const auto normal = primitive.attributes.find("NORMAL");
-      normal != primitive.attributes.end()) {
-    geometry.normals = read_float3s(document, normal->second, pointer + "/attributes/NORMAL");
-    if (geometry.normals.rows() != geometry.positions.rows()) {
-      fail_at(document, pointer + "/attributes/NORMAL", "gltf.accessor",
-              fmt::format("there are {} normals for {} positions", geometry.normals.rows(),
-                          geometry.positions.rows()));
-    }
-  }
-  geometry.triangles =
-      read_triangles(document, primitive.indices,
-                     static_cast<std::size_t>(geometry.positions.rows()), pointer + "/indices");
-  return geometry;
-}
 
 /// Morph targets need the same attributes in every primitive, else viewers mix them up.
 void check_normals(const GltfDocument& document, const SourceGeometry& source) {
@@ -89,31 +25,101 @@ void check_normals(const GltfDocument& document, const SourceGeometry& source) {
   }
 }
 
+const tinygltf::Node& node_of(const GltfDocument& document, const SourceGeometry& source) {
+  return document.model.nodes[static_cast<std::size_t>(source.node)];
+}
+
+const tinygltf::Mesh& mesh_of(const GltfDocument& document, const SourceGeometry& source) {
+  return document.model.meshes[static_cast<std::size_t>(source.mesh)];
+}
+
+/// Weights of the mesh's own targets in the shape that is chosen.
+Eigen::VectorXd chosen_weights(const GltfDocument& document, const SourceGeometry& source,
+                               const MeshChoice& choice) {
+  const tinygltf::Mesh& mesh = mesh_of(document, source);
+  const std::size_t count = target_count(document, source.mesh);
+  Eigen::VectorXd weights = rest_weights(node_of(document, source), mesh, count);
+  if (is_chosen(choice.target)) {
+    const int target = index_of_choice(document, choice.target, target_names(mesh, count), "target",
+                                       fmt::format("/meshes/{}/extras/targetNames", source.mesh));
+    weights = Eigen::VectorXd::Unit(static_cast<Eigen::Index>(count), target);
+  }
+  if (choice.moment) weights = weights_at(document, source.node, *choice.moment, weights);
+  return weights;
+}
+
+/// Adds weighted targets to a primitive's base shape.
+void add_targets(const GltfDocument& document, const tinygltf::Primitive& primitive,
+                 const Eigen::VectorXd& weights, const std::string& pointer,
+                 PrimitiveGeometry& geometry) {
+  for (std::size_t t = 0; t < primitive.targets.size(); ++t) {
+    const auto weight = static_cast<float>(weights(static_cast<Eigen::Index>(t)));
+    if (weight == 0) continue;
+    const TargetGeometry target =
+        read_target(document, primitive, t, geometry.positions.rows(), pointer);
+    if (target.positions.rows() > 0) geometry.positions += weight * target.positions;
+    if (target.normals.rows() > 0 && geometry.normals.rows() > 0) {
+      geometry.normals += weight * target.normals;
+    }
+  }
+}
+
+/// Poses the mesh by its skeleton at a moment, in the space of the mesh as it was bound.
+void pose_mesh(const GltfDocument& document, const Moment& moment, SourceGeometry& source) {
+  const NodeOrder order = order_nodes(document, transforms_at(document, moment));
+  std::vector<Eigen::Matrix4d> joints =
+      joint_transforms(document, node_of(document, source).skin, order.to_scene);
+  const Eigen::Matrix4d to_mesh = source.to_scene.inverse();
+  for (Eigen::Matrix4d& joint : joints) joint = to_mesh * joint;
+  const tinygltf::Mesh& mesh = mesh_of(document, source);
+  for (std::size_t p = 0; p < mesh.primitives.size(); ++p) {
+    const SkinBinding binding = read_binding(document, mesh.primitives[p], joints.size(),
+                                             primitive_pointer(source.mesh, p));
+    pose(binding, joints, source.primitives[p].positions, source.primitives[p].normals);
+  }
+  source.is_posed = true;
+}
+
+void check_finite(const GltfDocument& document, const SourceGeometry& source) {
+  for (std::size_t p = 0; p < source.primitives.size(); ++p) {
+    if (source.primitives[p].positions.allFinite() && source.primitives[p].normals.allFinite()) {
+      continue;
+    }
+    fail_at(document, primitive_pointer(source.mesh, p), "gltf.not-finite",
+            "with its targets' weights and pose the mesh is not finite");
+  }
+}
+
 }  // namespace
 
 std::string primitive_pointer(int mesh, std::size_t primitive) {
   return fmt::format("/meshes/{}/primitives/{}", mesh, primitive);
 }
 
-SourceGeometry read_source_geometry(const GltfFile& file) {
+SourceGeometry read_source_geometry(const GltfFile& file, const MeshChoice& choice) {
   const GltfDocument& document = *file;
-  const MeshNode at = only_mesh_node(document);
-  check_node(document, at);
-  if (static_cast<std::size_t>(at.mesh) >= document.model.meshes.size()) {
-    fail_at(document, fmt::format("/nodes/{}/mesh", at.node), "gltf.invalid",
-            fmt::format("mesh {} does not exist", at.mesh));
-  }
-  SourceGeometry source{at.node, at.mesh, at.to_scene, {}};
-  const tinygltf::Mesh& mesh = document.model.meshes[static_cast<std::size_t>(at.mesh)];
+  const MeshNode at = choose_mesh_node(document, choice, Ambiguity::Refuse);
+  SourceGeometry source;
+  source.node = at.node;
+  source.mesh = at.mesh;
+  source.to_scene = at.to_scene;
+  source.is_at_rest = !is_chosen(choice.target) && !choice.moment;
+  check_mesh_size(document, at.mesh);
+  const Eigen::VectorXd weights = chosen_weights(document, source, choice);
+  const tinygltf::Mesh& mesh = mesh_of(document, source);
   for (std::size_t p = 0; p < mesh.primitives.size(); ++p) {
-    source.primitives.push_back(
-        read_primitive(document, mesh.primitives[p], primitive_pointer(at.mesh, p)));
+    const std::string pointer = primitive_pointer(at.mesh, p);
+    source.primitives.push_back(read_primitive_geometry(document, mesh.primitives[p], pointer));
+    add_targets(document, mesh.primitives[p], weights, pointer, source.primitives.back());
   }
   if (source.primitives.empty()) {
     fail_at(document, fmt::format("/meshes/{}", at.mesh), "gltf.no-mesh",
             "the mesh has no primitive");
   }
   check_normals(document, source);
+  const bool is_skinned = node_of(document, source).skin >= 0;
+  if (choice.moment && is_skinned) pose_mesh(document, *choice.moment, source);
+  check_finite(document, source);
   return source;
 }
 

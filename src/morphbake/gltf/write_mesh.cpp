@@ -56,7 +56,6 @@ std::string write_mesh_glb(const PlainMesh& mesh, const std::string& generator) 
   Json primitive = {{"attributes", std::move(attributes)}};
   primitive["indices"] = append_indices(draft, mesh);
   if (mesh.material) primitive["material"] = 0;
-  Json parts = std::move(draft.json);
   draft.json = Json{{"asset", std::move(asset)},
                     {"scene", 0},
                     {"scenes", Json::array({{{"nodes", {0}}}})},
@@ -64,7 +63,6 @@ std::string write_mesh_glb(const PlainMesh& mesh, const std::string& generator) 
   draft.json["meshes"] =
       Json::array({{{"name", mesh.name}, {"primitives", Json::array({std::move(primitive)})}}});
   if (mesh.material) draft.json["materials"] = Json::array({json_of(*mesh.material)});
-  for (const auto& [field, value] : parts.items()) draft.json[field] = value;
   return glb_bytes(draft, mesh.name);
 }
 

@@ -8,9 +8,9 @@
 
 namespace morphbake {
 
-/// New geometry of one primitive, mesh space. Rows are those of the file's own vertices.
+/// Geometry of one primitive, mesh space. Rows are those of the file's own vertices.
 struct PrimitiveMorph {
-  Float3s positions;                      ///< #V by 3
+  Float3s positions;                      ///< #V by 3, with the file's own targets as at rest
   Float3s normals;                        ///< #V by 3, or no rows when the file has none
   std::vector<Float3s> target_positions;  ///< one a target: #V by 3 displacement
   std::vector<Float3s> target_normals;    ///< one a target, or empty: #V by 3 displacement
@@ -20,6 +20,8 @@ struct PrimitiveMorph {
 struct MeshMorph {
   int node = 0;
   int mesh = 0;
+  bool replaces_base = false;              ///< whether the base shape is another than the file's
+  bool drops_skin = false;                 ///< the base shape is posed already
   std::vector<PrimitiveMorph> primitives;  ///< one a primitive of the mesh
   std::vector<std::string> target_names;   ///< unique, non-empty
   std::string animation_name;
@@ -27,10 +29,13 @@ struct MeshMorph {
   Eigen::MatrixXf key_weights;   ///< #keys by #targets, in [0, 1]
 };
 
-/// The bytes of a .glb: everything of `source`, with the morph in place of the mesh's geometry.
+/// The bytes of a .glb: everything of `source`, and the morph.
 ///
-/// Base positions and normals are written over the old ones, targets and animation are appended;
-/// buffers become the binary chunk; images outside the file are taken into it.
+/// Targets and animation are appended. The mesh's own targets and all animations of their weights
+/// stay; where new targets are, those get the weights of the first key. A new base shape takes the
+/// place of the old one as floats. Buffers become the binary chunk; images outside the file are
+/// taken into it.
+/// @throws BakeError "output.too-large"; those of reading for animations that cannot be
 std::string write_morph_glb(const GltfFile& source, const MeshMorph& morph,
                             const std::string& generator);
 

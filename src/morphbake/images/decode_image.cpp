@@ -14,6 +14,7 @@ namespace morphbake {
 namespace {
 
 constexpr int kLargestSide = 16384;
+constexpr std::int64_t kMostPixels = std::int64_t{1} << 26;  // some bytes each, while decoding
 
 [[noreturn]] void fail(const std::string& name, const std::string& code, const std::string& message,
                        const std::string& hint) {
@@ -45,6 +46,11 @@ ImageHeader checked_header(std::string_view bytes, const std::string& name) {
     fail(name, "image.too-large",
          fmt::format("the image is {} x {} pixels", header->width, header->height),
          fmt::format("at most {} pixels a side", kLargestSide));
+  }
+  if (std::int64_t{header->width} * header->height > kMostPixels) {
+    fail(name, "image.too-large",
+         fmt::format("the image is {} x {} pixels", header->width, header->height),
+         fmt::format("at most {} pixels in all, such as 8192 x 8192", kMostPixels));
   }
   // libpng would find this as well, but says so on stderr.
   if (header->format == ImageFormat::Png &&

@@ -10,13 +10,21 @@ namespace morphbake {
 /// A JSON document that keeps the order of its fields: recipes are ordered (sources, tracks).
 using Json = nlohmann::ordered_json;
 
+/// How large a document may be.
+struct JsonLimits {
+  // std::regex, which checks names and paths, recurses once a letter: 8192 overflow the stack under
+  // AddressSanitizer.
+  std::size_t string_bytes = 1024;            ///< of one name or string
+  std::size_t values = std::size_t{1} << 22;  ///< numbers, strings, arrays, objects, ...
+};
+
 /// Parses UTF-8 JSON text; a UTF-8 byte order mark is skipped.
 ///
 /// @param file  what messages call the text
 /// @throws BakeError "json.syntax" with line and column, "json.too-deep" beyond 64 brackets,
-///         "json.too-long" for a string beyond 1024 bytes, "json.duplicate-key" for all repeated
-///         fields
-Json parse_json(std::string_view text, const std::string& file);
+///         "json.too-long" for a string beyond its limit, "json.too-many-values",
+///         "json.duplicate-key" for all repeated fields
+Json parse_json(std::string_view text, const std::string& file, const JsonLimits& limits = {});
 
 /// Reads and parses a file of at most 16 MB.
 ///

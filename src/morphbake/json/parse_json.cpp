@@ -13,9 +13,6 @@ namespace {
 
 constexpr std::size_t depth_limit = 64;
 constexpr std::size_t duplicates_limit = 100;
-// std::regex, which checks names and paths, recurses once a letter: 8192 overflow the stack under
-// AddressSanitizer.
-constexpr std::size_t string_limit = 1024;
 
 struct SyntaxError {
   std::size_t offset = 0;  ///< of the offending byte
@@ -33,6 +30,8 @@ struct OpenContainer {
 /// fields and deep nesting, and adds fields in constant time.
 class DocumentBuilder : public nlohmann::json_sax<Json> {
  public:
+  explicit DocumentBuilder(const JsonLimits& limits) : limits_(limits) {}
+
   bool null() override { return add(nullptr); }
 
   bool boolean(bool value) override { return add(value); }
@@ -44,7 +43,7 @@ class DocumentBuilder : public nlohmann::json_sax<Json> {
   bool number_float(number_float_t value, const string_t& /*text*/) override { return add(value); }
 
   bool string(string_t& value) override {
-    too_long = value.size() > string_limit;
+    too_long = value.size() > limits_.string_bytes;
     return !too_long && add(std::move(value));
   }
 
@@ -59,7 +58,7 @@ class DocumentBuilder : public nlohmann::json_sax<Json> {
   bool end_array() override { return close(); }
 
   bool key(string_t& name) override {
-    too_long = name.size() > string_limit;
+    too_long = name.size() > limits_.string_bytes;
     if (too_long) return false;
     OpenContainer& object = open_.back();
     object.key = name;
@@ -77,6 +76,7 @@ class DocumentBuilder : public nlohmann::json_sax<Json> {
   Json document;
   bool too_deep = false;
   bool too_long = false;
+  bool too_many = false;
   SyntaxError syntax_error;
   std::vector<std::string> duplicates;  ///< pointers
 
@@ -97,14 +97,20 @@ class DocumentBuilder : public nlohmann::json_sax<Json> {
     return &fields.back().second;
   }
 
+  bool has_room() {
+    too_many = ++count_ > limits_.values;
+    return !too_many;
+  }
+
   bool add(Json value) {
+    if (!has_room()) return false;
     place(std::move(value));
     return true;
   }
 
   bool open(Json container) {
     too_deep = open_.size() >= depth_limit;
-    if (too_deep) return false;
+    if (too_deep || !has_room()) return false;
     Json* value = place(std::move(container));
     open_.push_back({value, {}, {}});
     return true;
@@ -125,11 +131,21 @@ class DocumentBuilder : public nlohmann::json_sax<Json> {
     return text;
   }
 
+  JsonLimits limits_;
+  std::size_t count_ = 0;
   std::vector<OpenContainer> open_;
 };
 
 /// What a document may not have although it is JSON.
-void refuse_excess(const DocumentBuilder& builder, const std::string& file) {
+void refuse_excess(const DocumentBuilder& builder, const JsonLimits& limits,
+                   const std::string& file) {
+  if (builder.too_many) {
+    throw BakeError(Problem{Severity::Error,
+                            "json.too-many-values",
+                            {file, ""},
+                            fmt::format("the JSON has more than {} values", limits.values),
+                            ""});
+  }
   if (builder.too_deep) {
     throw BakeError(Problem{Severity::Error,
                             "json.too-deep",
@@ -138,11 +154,12 @@ void refuse_excess(const DocumentBuilder& builder, const std::string& file) {
                             ""});
   }
   if (builder.too_long) {
-    throw BakeError(Problem{Severity::Error,
-                            "json.too-long",
-                            {file, ""},
-                            fmt::format("a name or string is longer than {} bytes", string_limit),
-                            ""});
+    throw BakeError(
+        Problem{Severity::Error,
+                "json.too-long",
+                {file, ""},
+                fmt::format("a name or string is longer than {} bytes", limits.string_bytes),
+                ""});
   }
 }
 
@@ -220,10 +237,10 @@ Problem syntax_problem(std::string_view text, const SyntaxError& error, const st
 
 }  // namespace
 
-Json parse_json(std::string_view text, const std::string& file) {
-  DocumentBuilder builder;
+Json parse_json(std::string_view text, const std::string& file, const JsonLimits& limits) {
+  DocumentBuilder builder(limits);
   const bool parsed = Json::sax_parse(text.begin(), text.end(), &builder);
-  refuse_excess(builder, file);
+  refuse_excess(builder, limits, file);
   std::vector<Problem> problems;
   for (const std::string& pointer : builder.duplicates) {
     problems.push_back({Severity::Error,

@@ -2,46 +2,12 @@
 
 #include <algorithm>
 #include <array>
-#include <cstdint>
 #include <numeric>
+
+#include "morphbake/mesh/sides.h"
 
 namespace morphbake {
 namespace {
-
-/// A directed triangle side, sortable so that both directions of an edge lie together.
-struct Side {
-  int low, high;
-  bool forward;  ///< runs from low to high
-  int triangle;
-};
-
-std::vector<Side> sorted_sides(const Triangles& triangles) {
-  std::vector<Side> sides;
-  sides.reserve(static_cast<std::size_t>(3 * triangles.rows()));
-  for (int f = 0; f < triangles.rows(); ++f) {
-    for (int k = 0; k < 3; ++k) {
-      const int a = triangles(f, k);
-      const int b = triangles(f, (k + 1) % 3);
-      if (a != b) sides.push_back({std::min(a, b), std::max(a, b), a < b, f});
-    }
-  }
-  std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) {
-    return std::array{a.low, a.high, a.triangle} < std::array{b.low, b.high, b.triangle};
-  });
-  return sides;
-}
-
-/// Calls visit(first, last) for each run of sides that are one edge.
-template <typename Visit>
-void for_each_edge(const std::vector<Side>& sides, const Visit& visit) {
-  for (auto first = sides.begin(); first != sides.end();) {
-    const auto last = std::find_if(first, sides.end(), [&](const Side& side) {
-      return side.low != first->low || side.high != first->high;
-    });
-    visit(first, last);
-    first = last;
-  }
-}
 
 class DisjointSets {
  public:
@@ -71,7 +37,7 @@ void keep_first(std::vector<T>& list, const T& place, int limit) {
 
 /// Corners around one vertex belong to one fan when triangles connect them edge by edge.
 std::vector<int> find_pinched_vertices(const Connectivity& connectivity,
-                                       const std::vector<Side>& sides, int limit) {
+                                       const std::vector<TriangleSide>& sides, int limit) {
   const Triangles& triangles = connectivity.triangles;
   DisjointSets fans(static_cast<std::size_t>(3 * triangles.rows()));
   const auto corner_of = [&](int f, int vertex) {
@@ -87,14 +53,16 @@ std::vector<int> find_pinched_vertices(const Connectivity& connectivity,
       }
     }
   });
-  std::vector<int> fan_of(static_cast<std::size_t>(connectivity.vertex_count), -1);
+  constexpr int kUnseen = -1, kPinched = -2;
+  std::vector<int> fan_of(static_cast<std::size_t>(connectivity.vertex_count), kUnseen);
   std::vector<int> pinched;
   for (int corner = 0; corner < 3 * triangles.rows(); ++corner) {
     const int vertex = triangles(corner / 3, corner % 3);
     int& fan = fan_of[static_cast<std::size_t>(vertex)];
-    if (fan < 0) fan = fans.find(corner);
-    const bool known = !pinched.empty() && pinched.back() == vertex;
-    if (fan != fans.find(corner) && !known) keep_first(pinched, vertex, limit);
+    if (fan == kUnseen) fan = fans.find(corner);
+    if (fan == kPinched || fan == fans.find(corner)) continue;
+    fan = kPinched;
+    keep_first(pinched, vertex, limit);
   }
   return pinched;
 }
@@ -104,7 +72,7 @@ std::vector<int> find_pinched_vertices(const Connectivity& connectivity,
 OneRings one_rings(const Connectivity& connectivity) {
   OneRings rings;
   rings.offsets.assign(static_cast<std::size_t>(connectivity.vertex_count) + 1, 0);
-  const std::vector<Side> sides = sorted_sides(connectivity.triangles);
+  const std::vector<TriangleSide> sides = sorted_sides(connectivity.triangles);
   std::vector<std::array<int, 2>> edges;
   for_each_edge(sides, [&](auto first, auto) {
     edges.push_back({first->low, first->high});
@@ -161,7 +129,7 @@ ManifoldDefects find_manifold_defects(const Connectivity& connectivity, int limi
   for (int v = 0; v < connectivity.vertex_count; ++v) {
     if (!used[static_cast<std::size_t>(v)]) keep_first(defects.unused_vertices, v, limit);
   }
-  const std::vector<Side> sides = sorted_sides(connectivity.triangles);
+  const std::vector<TriangleSide> sides = sorted_sides(connectivity.triangles);
   for_each_edge(sides, [&](auto first, auto last) {
     if (last - first > 2) {
       keep_first(defects.crowded_edges, Eigen::Vector2i(first->low, first->high), limit);

@@ -10,7 +10,7 @@ namespace {
 constexpr double kSameWeight = 1e-6;
 
 bool ends_as_it_begins(const AnimatedMesh& mesh) {
-  const auto& keys = mesh.key_weights;
+  const auto& keys = mesh.weights.values;
   if (keys.rows() < 2) return true;
   return (keys.row(0) - keys.row(keys.rows() - 1)).lpNorm<Eigen::Infinity>() <= kSameWeight;
 }
@@ -32,9 +32,9 @@ std::vector<LoopMoment> loop_moments(const AnimatedMesh& mesh, const TurntableOp
   for (int i = 0; i < options.frames; ++i) {
     const double phase = static_cast<double>(i) / options.frames;
     LoopMoment moment;
-    if (mesh.key_weights.rows() > 0) {
-      const double begin = mesh.key_times.empty() ? 0.0 : mesh.key_times.front();
-      const double end = mesh.key_times.empty() ? 0.0 : mesh.key_times.back();
+    if (mesh.weights.values.rows() > 0) {
+      const double begin = mesh.weights.times.empty() ? 0.0 : mesh.weights.times.front();
+      const double end = mesh.weights.times.empty() ? 0.0 : mesh.weights.times.back();
       moment.weights = weights_at(mesh, begin + (end - begin) * played_share(mesh, phase));
     }
     moment.azimuth = orbit_azimuth(options, phase) * std::numbers::pi / 180.0;

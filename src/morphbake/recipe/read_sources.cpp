@@ -116,6 +116,28 @@ void read_align(Reading& reading, const Json& source, const std::string& pointer
            "leave it out here, and write it at the sources that shall move");
 }
 
+NameOrIndex name_or_index(const Json& owner, const char* field) {
+  if (!owner.contains(field)) return {};
+  const Json& value = owner[field];
+  if (value.is_string()) return value.get<std::string>();
+  return value.get<int>();
+}
+
+/// Which mesh of the file, and in which shape.
+void read_choice(Reading& reading, const Json& source, const std::string& pointer,
+                 MeshChoice& choice) {
+  choice.node = name_or_index(source, "node");
+  choice.mesh = name_or_index(source, "mesh");
+  choice.target = name_or_index(source, "target");
+  if (!source.contains("animation")) return;
+  const Json& moment = source["animation"];
+  choice.moment = Moment{name_or_index(moment, "name"), moment["time"].get<double>()};
+  if (!is_chosen(choice.target)) return;
+  complain(reading, "recipe.conflicting-fields", pointer + "/target",
+           "a source is the shape of a target or that of a moment, not both",
+           "leave out \"target\" or \"animation\"");
+}
+
 }  // namespace
 
 void read_sources(Reading& reading) {
@@ -127,7 +149,10 @@ void read_sources(Reading& reading) {
     const Json& file = is_object ? source["file"] : source;
     check_exists(reading, absolute_file(reading, file), file,
                  is_object ? pointer + "/file" : pointer);
-    SourceRef ref{name, absolute_file(reading, file), {}, {}};
+    SourceRef ref;
+    ref.name = name;
+    ref.file = absolute_file(reading, file);
+    if (is_object) read_choice(reading, source, pointer, ref.choice);
     read_source_landmarks(reading, source, pointer, ref);
     read_align(reading, source, pointer, ref);
     reading.recipe.sources.push_back(std::move(ref));

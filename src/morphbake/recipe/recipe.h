@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "morphbake/diagnostics/problem.h"
+#include "morphbake/gltf/mesh_choice.h"
 #include "morphbake/recipe/landmark.h"
 
 namespace morphbake {
@@ -24,6 +25,7 @@ struct SourceRef {
   std::vector<Landmark> landmarks;
   Location landmarks_at;  ///< of the object whose fields the landmarks are, for messages
   Align align = Align::None;
+  MeshChoice choice = {};  ///< of the file's meshes, and its shape
 };
 
 /// How the sources get one connectivity.

@@ -6,11 +6,13 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <array>
-#include <set>
 #include <utility>
 
 #include "morphbake/diagnostics/problem.h"
+#include "morphbake/json/nearest.h"
 #include "morphbake/mesh/adjacency.h"
+#include "morphbake/mesh/open_seams.h"
+#include "morphbake/mesh/orientation.h"
 
 namespace morphbake {
 namespace {
@@ -22,13 +24,99 @@ std::string place_of(const Positions& positions, int vertex) {
                      positions(vertex, 2));
 }
 
+/// The triangles that are neither degenerate nor repeat an earlier one, rising; notes what becomes
+/// of the rest.
+std::vector<int> keep_triangles(const std::vector<int>& corner_classes, CornerSurface& surface) {
+  std::vector<std::array<int, 4>> proper;  // the three classes, rising, and the triangle
+  for (std::size_t f = 0; f < corner_classes.size() / 3; ++f) {
+    const int* t = corner_classes.data() + 3 * f;
+    std::array<int, 3> corners{t[0], t[1], t[2]};
+    std::sort(corners.begin(), corners.end());
+    if (corners[0] == corners[1] || corners[1] == corners[2]) {
+      ++surface.repairs.degenerate;
+    } else {
+      proper.push_back({corners[0], corners[1], corners[2], static_cast<int>(f)});
+    }
+  }
+  std::sort(proper.begin(), proper.end());
+  const auto repeats = [&](std::size_t i) {
+    return i > 0 && std::equal(proper[i].begin(), proper[i].begin() + 3, proper[i - 1].begin());
+  };
+  std::vector<int> kept;
+  for (std::size_t i = 0; i < proper.size(); ++i) {
+    if (!repeats(i)) kept.push_back(proper[i][3]);
+  }
+  std::sort(kept.begin(), kept.end());
+  std::vector<int>& of_file = surface.triangle_of_file;
+  of_file.assign(corner_classes.size() / 3, -1);
+  for (std::size_t row = 0; row < kept.size(); ++row) {
+    of_file[static_cast<std::size_t>(kept[row])] = static_cast<int>(row);
+  }
+  for (std::size_t i = 1; i < proper.size(); ++i) {
+    if (!repeats(i)) continue;
+    ++surface.repairs.duplicate;
+    of_file[static_cast<std::size_t>(proper[i][3])] =
+        of_file[static_cast<std::size_t>(proper[i - 1][3])];
+  }
+  return kept;
+}
+
+/// Numbers the classes of the surface's corners by first appearance.
+void number_vertices(const std::vector<int>& corner_classes, CornerSurface& surface) {
+  const int class_count =
+      corner_classes.empty() ? 0 : *std::max_element(corner_classes.begin(), corner_classes.end());
+  std::vector<int> number(static_cast<std::size_t>(class_count) + 1, -1);
+  Connectivity& connectivity = surface.connectivity;
+  connectivity.triangles.resize(static_cast<Eigen::Index>(surface.file_corner.size() / 3), 3);
+  for (std::size_t c = 0; c < surface.file_corner.size(); ++c) {
+    const auto corner = static_cast<std::size_t>(surface.file_corner[c]);
+    int& vertex = number[static_cast<std::size_t>(corner_classes[corner])];
+    if (vertex < 0) vertex = connectivity.vertex_count++;
+    connectivity.triangles.data()[c] = vertex;
+  }
+  surface.vertex_of_corner.reserve(corner_classes.size());
+  for (const int corner_class : corner_classes) {
+    surface.vertex_of_corner.push_back(number[static_cast<std::size_t>(corner_class)]);
+  }
+}
+
+void turn(int triangle, CornerSurface& surface) {
+  Triangles& triangles = surface.connectivity.triangles;
+  std::swap(triangles(triangle, 1), triangles(triangle, 2));
+  const auto corners = surface.file_corner.begin() + 3 * triangle;
+  std::swap(corners[1], corners[2]);
+}
+
+std::string counted(std::size_t count, const char* thing) {
+  return fmt::format("{} {}{}", count, thing, count == 1 ? "" : "s");
+}
+
+Problem source_problem(const SourceMesh& source, Severity severity, const char* code,
+                       std::string message, std::string hint) {
+  const std::string pointer = fmt::format("/meshes/{}", source.geometry.mesh);
+  return {
+      severity, code, {file_of(source.file), pointer, 0, 0}, std::move(message), std::move(hint)};
+}
+
+std::string repairs_text(const SurfaceRepairs& repairs) {
+  const auto [degenerate, duplicate, turned] = repairs;
+  std::vector<std::string> parts;
+  const auto add = [&](int count, const char* what, const char* is_done) {
+    if (count == 0) return;
+    parts.push_back(fmt::format("{} {} {}", counted(static_cast<std::size_t>(count), what),
+                                count == 1 ? "is" : "are", is_done));
+  };
+  add(degenerate, "degenerate triangle", "left out");
+  add(duplicate, "duplicate triangle", "left out");
+  add(turned, "triangle", "turned to face as its neighbours");
+  return fmt::format("{}", fmt::join(parts, ", "));
+}
+
 }  // namespace
 
 void fail_source(const SourceMesh& source, const std::string& code, const std::string& message,
                  const std::string& hint) {
-  const std::string pointer = fmt::format("/meshes/{}", source.geometry.mesh);
-  throw BakeError(
-      Problem{Severity::Error, code, {file_of(source.file), pointer, 0, 0}, message, hint});
+  throw BakeError(source_problem(source, Severity::Error, code.c_str(), message, hint));
 }
 
 std::vector<int> welded_corners(const SourceMesh& source) {
@@ -39,59 +127,24 @@ std::vector<int> welded_corners(const SourceMesh& source) {
   return corners;
 }
 
-std::vector<int> proper_triangles(const std::vector<int>& corner_classes) {
-  std::vector<int> proper;
-  for (std::size_t f = 0; f < corner_classes.size() / 3; ++f) {
-    const int* t = corner_classes.data() + 3 * f;
-    const bool is_degenerate = t[0] == t[1] || t[1] == t[2] || t[2] == t[0];
-    if (!is_degenerate) proper.push_back(static_cast<int>(f));
-  }
-  return proper;
-}
-
-std::vector<int> without_duplicates(const std::vector<int>& corner_classes,
-                                    const std::vector<int>& triangles) {
-  std::set<std::array<int, 3>> seen;
-  std::vector<int> kept;
-  for (const int f : triangles) {
-    const int* t = corner_classes.data() + 3 * static_cast<std::size_t>(f);
-    std::array<int, 3> corners{t[0], t[1], t[2]};
-    std::sort(corners.begin(), corners.end());
-    if (seen.insert(corners).second) kept.push_back(f);
-  }
-  return kept;
-}
-
-CornerSurface surface_of_corners(const std::vector<int>& corner_classes,
-                                 const std::vector<int>& triangles) {
+CornerSurface surface_of_corners(const SourceMesh& source, const std::vector<int>& corner_classes) {
   CornerSurface surface;
-  std::vector<int> number(corner_classes.size(), -1);  // corner class -> vertex
-  surface.connectivity.triangles.resize(static_cast<Eigen::Index>(triangles.size()), 3);
-  surface.file_corner.reserve(3 * triangles.size());
-  Eigen::Index row = 0;
-  for (const int f : triangles) {
-    for (int k = 0; k < 3; ++k) {
-      const int corner = 3 * f + k;
-      int& vertex =
-          number[static_cast<std::size_t>(corner_classes[static_cast<std::size_t>(corner)])];
-      if (vertex < 0) vertex = surface.connectivity.vertex_count++;
-      surface.connectivity.triangles(row, k) = vertex;
-      surface.file_corner.push_back(corner);
-    }
-    ++row;
+  const std::vector<int> kept = keep_triangles(corner_classes, surface);
+  surface.file_corner.reserve(3 * kept.size());
+  for (const int f : kept) {
+    for (int k = 0; k < 3; ++k) surface.file_corner.push_back(3 * f + k);
   }
-  for (const int corner_class : corner_classes) {
-    surface.vertex_of_corner.push_back(number[static_cast<std::size_t>(corner_class)]);
+  number_vertices(corner_classes, surface);
+  if (source.geometry.to_scene.topLeftCorner<3, 3>().determinant() < 0) {
+    for (std::size_t f = 0; f < kept.size(); ++f) turn(static_cast<int>(f), surface);
+  }
+  const Orientation orientation = find_orientation(surface.connectivity.triangles);
+  for (std::size_t f = 0; f < kept.size(); ++f) {
+    if (orientation.is_turned[f] == 0) continue;
+    turn(static_cast<int>(f), surface);
+    ++surface.repairs.turned;
   }
   return surface;
-}
-
-void wind_as_seen(const SourceMesh& source, CornerSurface& surface) {
-  if (source.geometry.to_scene.topLeftCorner<3, 3>().determinant() >= 0) return;
-  surface.connectivity.triangles.col(1).swap(surface.connectivity.triangles.col(2));
-  for (std::size_t c = 0; c < surface.file_corner.size(); c += 3) {
-    std::swap(surface.file_corner[c + 1], surface.file_corner[c + 2]);
-  }
 }
 
 std::vector<int> render_corners(const SourceMesh& source, const CornerSurface& surface) {
@@ -110,15 +163,50 @@ Positions vertex_positions(const SourceMesh& source, const CornerSurface& surfac
   return positions;
 }
 
+bool runs_as_in_file(const CornerSurface& surface, int triangle) {
+  const auto corners = surface.file_corner.begin() + 3 * triangle;
+  return (corners[0] + 1) % 3 == corners[1] % 3;
+}
+
+std::vector<Problem> surface_warnings(const SourceMesh& first,
+                                      const std::vector<std::string>& names,
+                                      const Triangles& triangles,
+                                      const std::vector<Positions>& geometries,
+                                      const SurfaceRepairs& repairs) {
+  std::vector<std::string> quoted;
+  for (const std::string& name : names) quoted.push_back(fmt::format("\"{}\"", name));
+  const std::string sources = name_list(quoted);
+  std::vector<Problem> warnings;
+  if (repairs.any()) {
+    warnings.push_back(source_problem(
+        first, Severity::Warning, "connectivity.repaired",
+        fmt::format("of {}: {}; files keep their triangles", sources, repairs_text(repairs)),
+        "in Blender: Mesh > Clean Up > Degenerate Dissolve and Merge by Distance, then Mesh > "
+        "Normals > Recalculate Outside mend the file itself"));
+  }
+  const std::vector<Eigen::Vector2i> seams = find_open_seams(triangles, geometries);
+  if (!seams.empty()) {
+    std::vector<std::string> places;
+    for (std::size_t i = 0; i < std::min<std::size_t>(kPlaces, seams.size()); ++i) {
+      places.push_back(place_of(geometries[0], seams[i](0)));
+    }
+    warnings.push_back(source_problem(
+        first, Severity::Warning, "connectivity.open-seams",
+        fmt::format("{} of {} lie beside others but are not joined to them: first at {}",
+                    counted(seams.size(), "border edge"), sources, fmt::join(places, ", ")),
+        "a morph can tear there; in Blender: Mesh > Clean Up > Merge by Distance joins them"));
+  }
+  return warnings;
+}
+
 void check_manifold(const SourceMesh& source, const Connectivity& connectivity,
                     const Positions& positions) {
-  if (connectivity.vertex_count == 0) {
+  if (connectivity.triangles.rows() == 0) {
     fail_source(source, "connectivity.empty",
                 "the mesh has no triangle with three different corners",
                 "export a mesh that has a surface");
   }
   const ManifoldDefects defects = find_manifold_defects(connectivity, kPlaces);
-  if (defects.none()) return;
   std::vector<std::string> places;
   for (const Eigen::Vector2i& edge : defects.crowded_edges) {
     places.push_back(fmt::format("edge {} - {} has more than two triangles",
@@ -131,6 +219,7 @@ void check_manifold(const SourceMesh& source, const Connectivity& connectivity,
   for (const int v : defects.pinched_vertices) {
     places.push_back(fmt::format("the surface is pinched at {}", place_of(positions, v)));
   }
+  if (places.empty()) return;
   // A triangle that is turned is one at each of its edges.
   std::vector<std::string> once;
   for (std::string& place : places) {
@@ -141,8 +230,7 @@ void check_manifold(const SourceMesh& source, const Connectivity& connectivity,
       source, "connectivity.not-manifold",
       fmt::format("the surface is no oriented manifold: {}", fmt::join(once, "; ")),
       only_turned
-          ? "in Blender: Mesh > Normals > Recalculate Outside; a strip that is twisted once "
-            "has no outside"
+          ? "the surface has no outside there, as a strip that is twisted once; cut it at the twist"
           : "in Blender: Mesh > Clean Up > Merge by Distance, then Select > All by Trait > "
             "Non Manifold shows the places");
 }

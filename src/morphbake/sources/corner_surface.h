@@ -3,44 +3,64 @@
 #include <string>
 #include <vector>
 
+#include "morphbake/diagnostics/problem.h"
 #include "morphbake/mesh/mesh.h"
 #include "morphbake/sources/source_mesh.h"
 
 namespace morphbake {
+
+/// What was mended in a file's triangles before anything was computed on them. The file itself
+/// stays as it is.
+struct SurfaceRepairs {
+  int degenerate = 0;  ///< triangles with two corners at one point: dropped
+  int duplicate = 0;  ///< triangles over the three points of an earlier one, however wound: dropped
+  int turned = 0;     ///< triangles that ran against most others of their piece: turned
+
+  bool any() const { return degenerate + duplicate + turned > 0; }
+};
 
 /// A surface whose vertices are classes of a file's triangle corners: those that lie at one point.
 struct CornerSurface {
   Connectivity connectivity;
   std::vector<int> vertex_of_corner;  ///< 3 #triangles of the file: -1 when no triangle uses it
   std::vector<int> file_corner;       ///< 3 #F: corner of the surface -> corner of the file
+  std::vector<int> triangle_of_file;  ///< triangle of the file -> of the surface: a duplicate has
+                                      ///< that of the earlier one, a degenerate one -1
+  SurfaceRepairs repairs;
 };
 
 /// Welded vertex of each corner of a source's triangles, corner 3 f + k.
 std::vector<int> welded_corners(const SourceMesh& source);
 
-/// The triangles whose three corners are of different classes.
-std::vector<int> proper_triangles(const std::vector<int>& corner_classes);
-
-/// `triangles` without those over the same three classes as an earlier one, however turned.
-std::vector<int> without_duplicates(const std::vector<int>& corner_classes,
-                                    const std::vector<int>& triangles);
-
-/// The surface of these triangles of a file, its vertices numbered by first appearance.
+/// The surface of a file's triangles, mended: degenerate and duplicate triangles are dropped, the
+/// rest is wound as it is seen in the scene (a node that mirrors turns them all; glTF 2.0, 3.7.4)
+/// and, in each piece that has two sides, as most of its triangles.
 ///
-/// @param corner_classes  class of each corner of the file's triangles
-/// @param triangles       rising
-CornerSurface surface_of_corners(const std::vector<int>& corner_classes,
-                                 const std::vector<int>& triangles);
-
-/// Turns the triangles when the source's node mirrors its mesh (glTF 2.0, 3.7.4): a surface is
-/// wound as it is seen in the scene.
-void wind_as_seen(const SourceMesh& source, CornerSurface& surface);
+/// Triangles keep the file's order; vertices are numbered by first appearance. A vertex that only
+/// degenerate triangles use is left out: nothing of it is seen.
+/// @param corner_classes  class of each corner of the source's triangles
+/// @see                   find_orientation
+CornerSurface surface_of_corners(const SourceMesh& source, const std::vector<int>& corner_classes);
 
 /// Render vertex of each corner of the surface.
 std::vector<int> render_corners(const SourceMesh& source, const CornerSurface& surface);
 
 /// Where the surface's vertices lie in a source that has them as corners: #V by 3, scene space.
 Positions vertex_positions(const SourceMesh& source, const CornerSurface& surface);
+
+/// Whether the triangle of the surface runs as the file's.
+bool runs_as_in_file(const CornerSurface& surface, int triangle);
+
+/// The warnings "connectivity.repaired" and "connectivity.open-seams", where there is a reason.
+///
+/// @param first       whose file was mended
+/// @param names       of the sources that have the surface
+/// @param geometries  where its vertices lie in each of them, #V by 3
+std::vector<Problem> surface_warnings(const SourceMesh& first,
+                                      const std::vector<std::string>& names,
+                                      const Triangles& triangles,
+                                      const std::vector<Positions>& geometries,
+                                      const SurfaceRepairs& repairs);
 
 /// @param positions  of the surface's vertices, for messages
 /// @throws BakeError "connectivity.empty", "connectivity.not-manifold" with the first places

@@ -63,32 +63,42 @@ Eigen::Vector3d face_normal(const Mesh& mesh, int triangle) {
   return (corner(1) - corner(0)).cross(corner(2) - corner(0));
 }
 
-bool breaks_shading(const Float3s& normals, const std::vector<int>& render_of_corner, const Side& x,
-                    const Side& y) {
-  const auto angle = [&](int corner, int other) {
+/// What the comparison of shading across an edge needs.
+struct Shading {
+  const CornerSurface& surface;
+  std::vector<int> render;  ///< of each corner of the surface
+  Float3s normals;          ///< of each render vertex, or no rows
+
+  /// A triangle that the surface turned has its normals on the other side than its neighbour.
+  double angle(int corner, int other) const {
     const auto normal = [&](int c) -> Eigen::Vector3d {
-      return normals.row(render_of_corner[static_cast<std::size_t>(c)]).transpose().cast<double>();
+      return normals.row(render[static_cast<std::size_t>(c)]).transpose().cast<double>();
     };
-    return angle_between(normal(corner), normal(other));
-  };
-  return angle(x.corner_at_a, y.corner_at_a) > kBrokenShading &&
-         angle(x.corner_at_b, y.corner_at_b) > kBrokenShading;
-}
+    const double seen = angle_between(normal(corner), normal(other));
+    const bool are_alike =
+        runs_as_in_file(surface, corner / 3) == runs_as_in_file(surface, other / 3);
+    return are_alike ? seen : std::min(seen, std::numbers::pi - seen);
+  }
+
+  bool is_broken(const Side& x, const Side& y) const {
+    return angle(x.corner_at_a, y.corner_at_a) > kBrokenShading &&
+           angle(x.corner_at_b, y.corner_at_b) > kBrokenShading;
+  }
+};
 
 }  // namespace
 
 std::vector<Eigen::Vector2i> find_hard_edges(const SourceMesh& source, const CornerSurface& surface,
                                              const Mesh& mesh) {
   const std::vector<Side> sides = sorted_sides(mesh.triangles);
-  const std::vector<int> render = render_corners(source, surface);
-  const Float3s normals = render_normals(source);
+  const Shading shading{surface, render_corners(source, surface), render_normals(source)};
   std::vector<Eigen::Vector2i> broken, broken_and_folded;
   std::size_t inner_edges = 0;
   for (std::size_t i = 0; i + 1 < sides.size(); ++i) {
     const Side &x = sides[i], &y = sides[i + 1];
     if (x.a != y.a || x.b != y.b) continue;
     ++inner_edges;
-    if (normals.rows() > 0 && !breaks_shading(normals, render, x, y)) continue;
+    if (shading.normals.rows() > 0 && !shading.is_broken(x, y)) continue;
     broken.emplace_back(x.a, x.b);
     const double fold =
         angle_between(face_normal(mesh, x.corner_at_a / 3), face_normal(mesh, y.corner_at_a / 3));

@@ -81,14 +81,14 @@ std::vector<int> weld_rows(const Positions& positions, int& welded_count) {
 }
 
 SourceMesh load_source(const SourceRef& source) {
-  return read_source(source.name, open_gltf(source.file));
+  return read_source(source.name, open_gltf(source.file), source.choice);
 }
 
-SourceMesh read_source(const std::string& name, const GltfFile& file) {
+SourceMesh read_source(const std::string& name, const GltfFile& file, const MeshChoice& choice) {
   SourceMesh mesh;
   mesh.name = name;
   mesh.file = file;
-  mesh.geometry = read_source_geometry(mesh.file);
+  mesh.geometry = read_source_geometry(mesh.file, choice);
   Eigen::Index vertices = 0, triangles = 0;
   for (const PrimitiveGeometry& primitive : mesh.geometry.primitives) {
     vertices += primitive.positions.rows();

@@ -29,7 +29,8 @@ struct SourceMesh {
 SourceMesh load_source(const SourceRef& source);
 
 /// As load_source, of a file that is open.
-SourceMesh read_source(const std::string& name, const GltfFile& file);
+SourceMesh read_source(const std::string& name, const GltfFile& file,
+                       const MeshChoice& choice = {});
 
 /// Vertex of each row, equal exactly when rows are; numbered by first appearance.
 std::vector<int> weld_rows(const Positions& positions, int& welded_count);

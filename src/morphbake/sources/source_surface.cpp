@@ -26,15 +26,13 @@ bool passes(const Check& check, std::vector<Problem>& problems) {
 
 SourceSurface source_surface(const SourceMesh& source, const SourceRef& ref,
                              const Observer& observer, std::vector<Problem>& problems) {
-  const std::vector<int> classes = welded_corners(source);
-  CornerSurface corners =
-      surface_of_corners(classes, without_duplicates(classes, proper_triangles(classes)));
-  wind_as_seen(source, corners);
+  const CornerSurface corners = surface_of_corners(source, welded_corners(source));
   stop_if_cancelled(observer);
 
   SourceSurface surface;
   surface.name = source.name;
   surface.file = file_of(source.file);
+  surface.repairs = corners.repairs;
   for (const Landmark& landmark : ref.landmarks) surface.landmark_names.push_back(landmark.name);
   const Mesh mesh{vertex_positions(source, corners), corners.connectivity.triangles};
   const bool is_manifold =
@@ -46,6 +44,10 @@ SourceSurface source_surface(const SourceMesh& source, const SourceRef& ref,
   }
   stop_if_cancelled(observer);
   if (!is_manifold) return surface;
+  for (const Problem& warning :
+       surface_warnings(source, {source.name}, mesh.triangles, {mesh.positions}, corners.repairs)) {
+    report(observer, warning);
+  }
   surface.mesh = mesh;
   surface.vertex_of_render.assign(static_cast<std::size_t>(source.positions.rows()), -1);
   for (std::size_t c = 0; c < corners.vertex_of_corner.size(); ++c) {

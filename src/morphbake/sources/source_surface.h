@@ -6,11 +6,12 @@
 #include "morphbake/diagnostics/observer.h"
 #include "morphbake/mesh/mesh.h"
 #include "morphbake/recipe/recipe.h"
+#include "morphbake/sources/corner_surface.h"
 #include "morphbake/sources/source_mesh.h"
 
 namespace morphbake {
 
-/// The surface of one source by itself: welded, without degenerate triangles, wound
+/// The surface of one source by itself: welded, mended by surface_of_corners, wound
 /// counter-clockwise in scene space, an oriented manifold.
 struct SourceSurface {
   std::string name;
@@ -21,12 +22,13 @@ struct SourceSurface {
   std::vector<Eigen::Vector2i> hard_edges;  ///< vertices a < b of edges where shading breaks
   std::vector<std::string> landmark_names;
   std::vector<SurfacePoint> landmarks;  ///< one a name
+  SurfaceRepairs repairs;
 };
 
 /// The surface of one source and where its landmarks are on it.
 ///
-/// Triangles that repeat a point or all points of an earlier one are dropped. Landmarks are put on
-/// the surface by landmark_points, hard edges found by find_hard_edges.
+/// Landmarks are put on the surface by landmark_points, hard edges found by find_hard_edges. Warns
+/// as surface_warnings.
 /// @param ref  gives the landmarks
 /// @throws BakeError "connectivity.empty", "connectivity.not-manifold", "landmarks...."; Cancelled
 SourceSurface source_surface(const SourceMesh& source, const SourceRef& ref,

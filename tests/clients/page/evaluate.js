@@ -2,15 +2,23 @@
 import * as THREE from 'three';
 import { GLTFLoader } from 'three/addons/loaders/GLTFLoader.js';
 
-/** Loads a file and readies its first clip to be put to any time. */
-async function openGltf(url) {
-  const gltf = await new GLTFLoader().loadAsync(url);
+/** Each further scene of a file makes the parser forget what it knows of the others. */
+function keepAssociations(parser) {
+  const all = parser.associations;
+  Object.defineProperty(parser, 'associations',
+    { get: () => all, set: (some) => some.forEach((value, key) => all.set(key, value)) });
+  return { name: 'keepAssociations' };
+}
+
+/** Loads a file and readies one of its clips to be put to any time. */
+async function openGltf(url, clip = 0) {
+  const gltf = await new GLTFLoader().register(keepAssociations).loadAsync(url);
   const meshes = [];
   gltf.scene.traverse((object) => { if (object.isMesh) meshes.push(object); });
   const primitiveOf = (mesh) => gltf.parser.associations.get(mesh).primitives ?? 0;
   meshes.sort((a, b) => primitiveOf(a) - primitiveOf(b));
   const mixer = new THREE.AnimationMixer(gltf.scene);
-  const action = gltf.animations.length ? mixer.clipAction(gltf.animations[0]) : null;
+  const action = gltf.animations.length ? mixer.clipAction(gltf.animations.at(clip)) : null;
   // A loop would show the first frame at the clip's last moment.
   action?.setLoop(THREE.LoopOnce, 1).play();
   if (action) action.clampWhenFinished = true;
@@ -49,9 +57,18 @@ function writeNormals(mesh, values, offset) {
 
 const post = (name, array) => fetch(`/result/${name}`, { method: 'POST', body: new Blob([array]) });
 
-/** Evaluates a file at `times`; numbers are posted, their layout is returned. */
-window.evaluate = async (url, times) => {
-  const opened = await openGltf(url);
+/** Where in the file a mesh of the scene comes from, and what it has. */
+function describeMesh({ parser }, mesh) {
+  const { meshes, primitives } = parser.associations.get(mesh);
+  let object = mesh;
+  while (object && parser.associations.get(object)?.nodes === undefined) object = object.parent;
+  return { node: parser.associations.get(object).nodes, mesh: meshes, primitive: primitives ?? 0,
+    vertices: mesh.geometry.attributes.position.count, targets: mesh.geometry.morphAttributes.position?.length ?? 0 };
+}
+
+/** Evaluates a file at `times` of one of its clips; numbers are posted, their layout is returned. */
+window.evaluate = async (url, times, clip = 0) => {
+  const opened = await openGltf(url, clip);
   const counts = opened.meshes.map((mesh) => mesh.geometry.attributes.position.count);
   const total = counts.reduce((sum, count) => sum + count, 0);
   const positions = new Float64Array(3 * total * times.length);
@@ -69,7 +86,8 @@ window.evaluate = async (url, times) => {
   await post('normals', normals);
   for (const [k, mesh] of opened.meshes.entries())
     await post(`indices/${k}`, Uint32Array.from(mesh.geometry.index?.array ?? Array(counts[k]).keys()));
-  return { counts, clips: opened.gltf.animations.map(({ name, duration }) => ({ name, duration })),
+  const places = opened.meshes.map((mesh) => describeMesh(opened.gltf, mesh));
+  return { counts, places, clips: opened.gltf.animations.map(({ name, duration }) => ({ name, duration })),
     targets: Object.keys(opened.meshes[0]?.morphTargetDictionary ?? {}) };
 };
 

@@ -103,7 +103,8 @@ export function localMatrix(node) {
   ];
 }
 
-function multiply(a, b) {
+/** The product of two matrices, column-major. */
+export function multiply(a, b) {
   const product = new Array(16).fill(0);
   for (let column = 0; column < 4; column++)
     for (let row = 0; row < 4; row++)

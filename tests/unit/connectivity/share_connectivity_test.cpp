@@ -55,16 +55,55 @@ TEST(ShareConnectivity, SourcesMaySplitVerticesDifferently) {
   }
 }
 
-TEST(ShareConnectivity, DropsDegenerateTriangles) {
+TEST(ShareConnectivity, LeavesDegenerateTrianglesOutAndTurnsWhatIsTurned) {
   Mesh mesh = test::sphere(8, 10);
   mesh.triangles.conservativeResize(mesh.triangles.rows() + 1, 3);
   mesh.triangles.bottomRows(1) << 3, 3, 4;
+  std::swap(mesh.triangles(20, 1), mesh.triangles(20, 2));
   const MorphableMesh shared =
       share_connectivity({source_of(mesh, "a"), source_of(deformed(mesh, 2), "b")});
-  EXPECT_EQ(shared.dropped_triangles, 1);
-  EXPECT_EQ(shared.connectivity.triangles.rows(), mesh.triangles.rows() - 1);
-  EXPECT_EQ(shared.render_of_corner.size(),
-            static_cast<std::size_t>(shared.connectivity.triangles.size()));
+  EXPECT_EQ(shared.repairs.degenerate, 1);
+  EXPECT_EQ(shared.repairs.duplicate, 0);
+  EXPECT_EQ(shared.repairs.turned, 1);
+  const Triangles right = test::sphere(8, 10).triangles;
+  ASSERT_EQ(shared.connectivity.triangles.rows(), right.rows());
+  for (Eigen::Index c = 0; c < right.size(); ++c) {
+    EXPECT_EQ(shared.connectivity.triangles.data()[c],
+              shared.vertex_of_render[static_cast<std::size_t>(
+                  shared.render_of_corner[static_cast<std::size_t>(c)])]);
+  }
+  EXPECT_EQ(shared.render_of_corner[60], right(20, 0));
+  EXPECT_EQ(shared.render_of_corner[61], right(20, 1));
+  EXPECT_EQ(shared.triangle_of_file.back(), -1);
+}
+
+/// A grid whose triangle 0 is there a second time, with vertices of its own at the same places.
+Mesh with_duplicate() {
+  Mesh mesh = test::joined(test::grid(3, 3), {Positions(3, 3), Eigen::RowVector3i(0, 2, 1)});
+  for (int k = 0; k < 3; ++k) mesh.positions.row(9 + k) = mesh.positions.row(mesh.triangles(0, k));
+  return mesh;
+}
+
+TEST(ShareConnectivity, VerticesOfDuplicatesMoveWithTheSurface) {
+  const Mesh mesh = with_duplicate();
+  const MorphableMesh shared =
+      share_connectivity({source_of(mesh, "a"), source_of(deformed(mesh, 2), "b")});
+  EXPECT_EQ(shared.repairs.duplicate, 1);
+  EXPECT_EQ(shared.connectivity.vertex_count, 9);
+  EXPECT_EQ(shared.triangle_of_file.back(), 0);
+  for (std::size_t k = 0; k < 3; ++k) {
+    const auto twin = static_cast<std::size_t>(mesh.triangles(0, static_cast<int>(k)));
+    EXPECT_EQ(shared.vertex_of_render[9 + k], shared.vertex_of_render[twin]);
+  }
+}
+
+TEST(ShareConnectivity, ATriangleThatIsADuplicateInOneSourceOnlyIsKept) {
+  const Mesh shut = with_duplicate();
+  Mesh open = shut;
+  open.positions.bottomRows(3).col(2).array() += 1;
+  const MorphableMesh shared = share_connectivity({source_of(shut, "a"), source_of(open, "b")});
+  EXPECT_FALSE(shared.repairs.any());
+  EXPECT_EQ(shared.connectivity.vertex_count, 12);
 }
 
 }  // namespace

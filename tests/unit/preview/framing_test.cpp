@@ -119,7 +119,7 @@ TEST(Motion, PlaysToTheEndAndBackUnlessItEndsAsItBegins) {
   AnimatedMesh mesh = growing_column();
   EXPECT_DOUBLE_EQ(played_share(mesh, 0.25), 0.5);
   EXPECT_DOUBLE_EQ(played_share(mesh, 0.75), 0.5);
-  mesh.key_weights << 1, 1;
+  mesh.weights.values << 1, 1;
   EXPECT_DOUBLE_EQ(played_share(mesh, 0.75), 0.75);
 }
 

@@ -14,7 +14,7 @@ AnimatedMesh ball() {
   AnimatedPrimitive& primitive = animated.primitives.emplace_back();
   primitive.triangles = mesh.triangles;
   primitive.positions = mesh.positions.cast<float>();
-  animated.key_weights.resize(1, 0);
+  animated.weights.values.resize(1, 0);
   animated.to_scene(0, 3) = 10;  // the scene is not the mesh's space
   return animated;
 }

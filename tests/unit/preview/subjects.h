@@ -45,7 +45,7 @@ inline AnimatedPrimitive sphere(const Eigen::Vector3f& centre, int columns = 48,
 inline AnimatedMesh still(AnimatedPrimitive primitive) {
   AnimatedMesh mesh;
   mesh.primitives.push_back(std::move(primitive));
-  mesh.key_weights.resize(1, 0);
+  mesh.weights.values.resize(1, 0);
   return mesh;
 }
 
@@ -61,9 +61,9 @@ inline AnimatedMesh growing_column() {
   primitive.target_positions = {target};
   primitive.target_normals = {Float3s::Zero(target.rows(), 3)};
   mesh.target_names = {"column"};
-  mesh.key_times = {0, 1};
-  mesh.key_weights.resize(2, 1);
-  mesh.key_weights << 0, 1;
+  mesh.weights.times = {0, 1};
+  mesh.weights.values.resize(2, 1);
+  mesh.weights.values << 0, 1;
   return mesh;
 }
 

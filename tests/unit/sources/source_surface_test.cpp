@@ -79,6 +79,33 @@ TEST(SourceSurface, DropsDegenerateAndRepeatedTriangles) {
   const SourceSurface surface = source_surface(source_of(mesh, "a"), {}, {});
   EXPECT_EQ(surface.mesh.triangles.rows(), count);
   EXPECT_EQ(surface.render_of_corner.size(), static_cast<std::size_t>(3 * count));
+  EXPECT_EQ(surface.repairs.degenerate, 1);
+  EXPECT_EQ(surface.repairs.duplicate, 2);
+}
+
+std::vector<Problem> warnings_of(const Mesh& mesh) {
+  std::vector<Problem> warnings;
+  Observer observer;
+  observer.on_problem = [&](const Problem& problem) { warnings.push_back(problem); };
+  source_surface(source_of(mesh, "a"), {}, observer);
+  return warnings;
+}
+
+TEST(SourceSurface, WarnsOfWhatItMendedAndOfOpenSeams) {
+  EXPECT_TRUE(warnings_of(test::sphere(8, 10)).empty());
+  Mesh mesh = test::sphere(8, 10);
+  std::swap(mesh.triangles(7, 0), mesh.triangles(7, 1));
+  Mesh beside = test::grid(3, 3);
+  beside.positions.col(0).array() += 2 + 1e-7;
+  mesh.positions.col(2).array() += 5;
+  mesh = test::joined(mesh, test::joined(test::grid(3, 3), beside));
+  const std::vector<Problem> warnings = warnings_of(mesh);
+  ASSERT_EQ(warnings.size(), 2U);
+  EXPECT_EQ(warnings[0].code, "connectivity.repaired");
+  EXPECT_THAT(warnings[0].message, testing::StartsWith("of \"a\": 1 triangle is turned"));
+  EXPECT_EQ(warnings[1].code, "connectivity.open-seams");
+  EXPECT_THAT(warnings[1].message, testing::StartsWith("4 border edges of \"a\" lie beside"));
+  for (const Problem& warning : warnings) EXPECT_EQ(warning.severity, Severity::Warning);
 }
 
 TEST(SourceSurface, KnowsItsRenderVertices) {
@@ -108,6 +135,15 @@ TEST(HardEdges, AreTheTwelveOfACube) {
   const Mesh split = split_apart(cube());
   EXPECT_EQ(hard_edges_of(with_normals(source_of(split, "a"), flat_normals(split))).size(), 12U);
   EXPECT_EQ(hard_edges_of(source_of(cube(), "a")).size(), 12U);
+}
+
+TEST(HardEdges, AreNoneBesideATriangleThatIsTurned) {
+  Mesh sphere = test::sphere(12, 16);
+  std::swap(sphere.triangles(50, 1), sphere.triangles(50, 2));
+  Mesh split = split_apart(sphere);
+  Positions normals = split.positions;  // smooth, but inward on the triangle that is turned
+  normals.middleRows(150, 3) *= -1;
+  EXPECT_TRUE(hard_edges_of(with_normals(source_of(split, "a"), normals)).empty());
 }
 
 TEST(HardEdges, NeedTheBreakAtBothEnds) {

@@ -1,0 +1,133 @@
+#include "morphbake/gltf/skin.h"
+
+#include <fmt/core.h>
+
+#include <Eigen/Geometry>
+#include <Eigen/LU>
+#include <algorithm>
+
+#include "morphbake/gltf/accessors.h"
+
+namespace morphbake {
+namespace {
+
+/// Attribute `name` of a primitive, or -1.
+int attribute(const tinygltf::Primitive& primitive, const std::string& name) {
+  const auto found = primitive.attributes.find(name);
+  return found == primitive.attributes.end() ? -1 : found->second;
+}
+
+/// Appends four joints and weights a vertex: one set of attributes.
+struct BindingSet {
+  std::vector<std::uint32_t> joints;
+  std::vector<float> weights;
+};
+
+BindingSet read_set(const GltfDocument& document, const tinygltf::Primitive& primitive, int set,
+                    const std::string& pointer) {
+  const std::string joints = fmt::format("JOINTS_{}", set);
+  const std::string weights = fmt::format("WEIGHTS_{}", set);
+  const std::string place = pointer + "/attributes";
+  if (attribute(primitive, weights) < 0) {
+    fail_at(document, place, "gltf.invalid", fmt::format("{} has no {}", joints, weights));
+  }
+  return {read_joints(document, attribute(primitive, joints), place + "/" + joints),
+          read_floats(document, attribute(primitive, weights), 4, place + "/" + weights)};
+}
+
+}  // namespace
+
+std::vector<Eigen::Matrix4d> joint_transforms(const GltfDocument& document, int index,
+                                              const std::vector<Eigen::Matrix4d>& to_scene) {
+  const std::string pointer = fmt::format("/skins/{}", index);
+  const auto& skins = document.model.skins;
+  if (static_cast<std::size_t>(index) >= skins.size()) {
+    fail_at(document, pointer, "gltf.invalid", fmt::format("skin {} does not exist", index));
+  }
+  const tinygltf::Skin& skin = skins[static_cast<std::size_t>(index)];
+  if (skin.joints.empty()) {
+    fail_at(document, pointer + "/joints", "gltf.invalid", "the skin has no joint");
+  }
+  std::vector<float> inverse;
+  if (skin.inverseBindMatrices >= 0) {
+    inverse = read_floats(document, skin.inverseBindMatrices, 16, pointer + "/inverseBindMatrices");
+    if (inverse.size() < 16 * skin.joints.size()) {
+      fail_at(document, pointer + "/inverseBindMatrices", "gltf.accessor",
+              fmt::format("there are {} matrices for {} joints", inverse.size() / 16,
+                          skin.joints.size()));
+    }
+  }
+  std::vector<Eigen::Matrix4d> transforms;
+  for (std::size_t j = 0; j < skin.joints.size(); ++j) {
+    const int joint = skin.joints[j];
+    if (joint < 0 || static_cast<std::size_t>(joint) >= to_scene.size()) {
+      fail_at(document, fmt::format("{}/joints/{}", pointer, j), "gltf.invalid",
+              fmt::format("node {} does not exist", joint));
+    }
+    transforms.push_back(to_scene[static_cast<std::size_t>(joint)]);
+    if (inverse.empty()) continue;
+    transforms.back() *= Eigen::Map<const Eigen::Matrix4f>(inverse.data() + 16 * j).cast<double>();
+  }
+  return transforms;
+}
+
+SkinBinding read_binding(const GltfDocument& document, const tinygltf::Primitive& primitive,
+                         std::size_t joint_count, const std::string& pointer) {
+  const auto position = attribute(primitive, "POSITION");
+  const std::size_t vertices = accessor_count(document, position, pointer + "/attributes/POSITION");
+  std::vector<BindingSet> sets;
+  while (attribute(primitive, fmt::format("JOINTS_{}", sets.size())) >= 0) {
+    sets.push_back(read_set(document, primitive, static_cast<int>(sets.size()), pointer));
+    if (sets.back().joints.size() == 4 * vertices && sets.back().weights.size() == 4 * vertices) {
+      continue;
+    }
+    fail_at(document, pointer + "/attributes", "gltf.accessor",
+            fmt::format("JOINTS_{0} and WEIGHTS_{0} need {1} elements, one a position",
+                        sets.size() - 1, vertices));
+  }
+  SkinBinding binding;
+  binding.width = 4 * sets.size();
+  for (std::size_t v = 0; v < vertices; ++v) {
+    float sum = 0;
+    for (const BindingSet& set : sets) {
+      for (std::size_t k = 4 * v; k < 4 * v + 4; ++k) {
+        if (set.joints[k] >= joint_count) {
+          fail_at(document, pointer + "/attributes", "gltf.accessor",
+                  fmt::format("vertex {} hangs on joint {}, but the skin has {}", v, set.joints[k],
+                              joint_count));
+        }
+        binding.joints.push_back(set.joints[k]);
+        binding.weights.push_back(set.weights[k]);
+        sum += set.weights[k];
+      }
+    }
+    if (sum == 0) continue;
+    std::for_each(binding.weights.end() - static_cast<std::ptrdiff_t>(binding.width),
+                  binding.weights.end(), [sum](float& weight) { weight /= sum; });
+  }
+  return binding;
+}
+
+void pose(const SkinBinding& binding, const std::vector<Eigen::Matrix4d>& transforms,
+          Float3s& positions, Float3s& normals) {
+  for (Eigen::Index v = 0; v < positions.rows() && binding.width > 0; ++v) {
+    Eigen::Matrix4d blend = Eigen::Matrix4d::Zero();
+    for (std::size_t k = 0; k < binding.width; ++k) {
+      const std::size_t at = static_cast<std::size_t>(v) * binding.width + k;
+      if (binding.weights[at] != 0) blend += binding.weights[at] * transforms[binding.joints[at]];
+    }
+    if (blend.isZero(0)) continue;  // hangs on nothing
+    const Eigen::Matrix3d linear = blend.topLeftCorner<3, 3>();
+    const Eigen::Vector3d position = positions.row(v).transpose().cast<double>();
+    positions.row(v) = (linear * position + blend.topRightCorner<3, 1>()).transpose().cast<float>();
+    if (normals.rows() == 0) continue;
+    // Normals turn by the inverse transpose; where that does not exist they stay.
+    const Eigen::Vector3d normal = normals.row(v).transpose().cast<double>();
+    const Eigen::Vector3d turned = linear.inverse().transpose() * normal;
+    if (turned.allFinite() && !turned.isZero(0)) {
+      normals.row(v) = turned.normalized().transpose().cast<float>();
+    }
+  }
+}
+
+}  // namespace morphbake

@@ -1,0 +1,108 @@
+// Every form in which glTF may hold a surface is read, morphs into another of the same form, and keeps what it had.
+// Usage: node forms_test.mjs --morphbake PROGRAM --output FOLDER [FORM...]    the files are left in FOLDER/baked
+import { mkdirSync, rmSync, writeFileSync } from 'node:fs';
+import path from 'node:path';
+import { FORMS, writeForm } from './forms/forms.mjs';
+import { countIssues, errorsIn, newIssues } from './issues.mjs';
+import { findLost } from './kept.mjs';
+import { openPlain } from './reference/plain.mjs';
+import { evaluateScene } from './reference/scene.mjs';
+import { diagonal } from './reference/vectors.mjs';
+import { farthest, shapeOf } from './shape.mjs';
+import { bake, readArguments, startChecks } from './support.mjs';
+
+const TOLERANCE = 1e-5;  // fraction of the source's diagonal
+const FLOAT_STEP = 1e-6;  // of positions of size 1, where weights of bytes become float32
+const { morphbake, output, files: only } = readArguments('morphbake', 'output');
+const checks = startChecks();
+
+function writeRecipe(name, { a, b }, folder) {
+  const { select, ...form } = FORMS[name];
+  const source = (which, file) => ({ file: path.relative(folder, file), ...select, ...form[which] });
+  const recipe = { version: 1, name, sources: { a: source('a', a), b: source('b', b) },
+    timeline: { keys: [{ time: 0, state: 'a' }, { time: 1, state: 'b' }] },
+    outputs: [{ file: `${name}.glb`, targets: 'tracks' }] };
+  const file = path.join(folder, 'recipe.json');
+  writeFileSync(file, JSON.stringify(recipe));
+  return file;
+}
+
+/** The node that a source's `node` or `mesh` means. */
+function subjectOf({ json }, { node, mesh } = {}) {
+  if (typeof node === 'number') return node;
+  const named = json.nodes.findIndex((each) => node !== undefined && each.name === node);
+  const shows = (each) => each.mesh !== undefined && (mesh === undefined || json.meshes[each.mesh].name === mesh);
+  return named >= 0 ? named : json.nodes.findIndex(shows);
+}
+
+/** Shapes of the subject at both ends of the new clip, and of all other nodes. */
+function compareShapes(name, { a, b, baked }) {
+  const { select, moments = {} } = FORMS[name];
+  const [start, end] = [[a, moments.a], [b, moments.b]].map(([plain, moment]) =>
+    shapeOf(evaluateScene(plain, moment), subjectOf(plain, select)));
+  const subject = subjectOf(a, select);
+  const animation = baked.json.animations.length - 1;
+  const scale = diagonal(start);
+  const off = [[0, start], [1, end]].map(([time, expected]) => {
+    const scene = evaluateScene(baked, { animation, time });
+    for (const { node } of scene) {
+      const isStill = node === subject || farthest(shapeOf(scene, node), shapeOf(evaluateScene(a), node)) === 0;
+      checks.check(isStill, `${name}: node ${node} moves`);
+    }
+    return farthest(shapeOf(scene, subject), expected) / scale;
+  });
+  checks.check(off[0] <= TOLERANCE, `${name}: starts ${off[0]} of the diagonal off`);
+  checks.check(off[1] <= TOLERANCE, `${name}: ends ${off[1]} of the diagonal off`);
+  return off;
+}
+
+/** Clips of the source still do what they did. */
+function compareClips(name, a, baked, startsThere) {
+  if (!startsThere) return;
+  (a.json.animations ?? []).forEach((_, animation) => {
+    for (const time of [0, 0.3, 0.5, 1.1, 5])
+      for (const { node } of evaluateScene(a)) {
+        const [was, is] = [a, baked].map((plain) => shapeOf(evaluateScene(plain, { animation, time }), node));
+        checks.check(farthest(is, was) < FLOAT_STEP,
+          `${name}: at ${time} s animation ${animation} shows node ${node} elsewhere`);
+      }
+  });
+}
+
+/** A target without NORMAL among others with it breaks normals in three.js and Babylon.js. */
+function checkTargetSets(name, { json }) {
+  for (const primitive of json.meshes.flatMap((mesh) => mesh.primitives)) {
+    const sets = new Set((primitive.targets ?? []).map((target) => Object.keys(target).sort().join()));
+    checks.check(sets.size <= 1, `${name}: targets with different attributes: ${[...sets].join(' | ')}`);
+  }
+}
+
+async function testForm(name) {
+  const folder = path.join(output, 'sources', name);
+  mkdirSync(folder, { recursive: true });
+  const files = await writeForm(name, folder);
+  const issues = await countIssues(files.a);
+  checks.check(errorsIn(issues).length === 0, `${name}: the source itself is not legal: ${errorsIn(issues)}`);
+  const baking = path.join(output, 'baked');
+  bake(morphbake, writeRecipe(name, files, folder), baking);
+  const file = path.join(baking, `${name}.glb`);
+  for (const issue of newIssues(issues, await countIssues(file))) checks.check(false, `${name}: ${issue}`);
+  const [a, b, baked] = await Promise.all([files.a, files.b, file].map(openPlain));
+  const startsThere = FORMS[name].a === undefined;
+  const node = subjectOf(a, FORMS[name].select);
+  for (const lost of await findLost(files.a, file, { node, startsThere })) checks.check(false, `${name}: ${lost}`);
+  checkTargetSets(name, baked);
+  const off = compareShapes(name, { a, b, baked });
+  compareClips(name, a, baked, startsThere);
+  console.log(`${name}: off by ${off[0].toExponential(1)} at the start, ${off[1].toExponential(1)} at the end`);
+}
+
+if (only.length === 0) rmSync(output, { recursive: true, force: true });
+const names = only.length ? only : Object.keys(FORMS);
+for (const name of names)
+  try {
+    await testForm(name);
+  } catch (error) {
+    checks.check(false, `${name}: ${error.message}`);
+  }
+checks.finish(`${names.length} forms are read, morph and are kept`);
