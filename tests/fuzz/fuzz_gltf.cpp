@@ -49,6 +49,8 @@ MeshMorph still_morph(const SourceGeometry& source) {
                                 {zeros},
                                 has_normals ? std::vector{zeros} : std::vector<Float3s>{}});
   }
+  morph.replaces_base = !source.is_at_rest;
+  morph.drops_skin = source.is_posed;
   morph.target_names = {"still"};
   morph.animation_name = "still";
   morph.key_times = {0, 1};
@@ -56,21 +58,39 @@ MeshMorph still_morph(const SourceGeometry& source) {
   return morph;
 }
 
-void read_all(const std::string& bytes, const std::filesystem::path& name) {
-  const GltfFile file = open_gltf_bytes(bytes, name);
-  const bool is_playable = succeeds([&] { read_animated_mesh(file); });
-  const SourceMesh source = read_source("source", file);
+/// The ways in which a recipe may choose a shape of a file.
+std::vector<MeshChoice> choices() {
+  MeshChoice first_node, first_mesh, first_target, moment;
+  first_node.node = 0;
+  first_mesh.mesh = 0;
+  first_target.target = 0;
+  moment.moment = Moment{{}, 0.5};
+  return {{}, first_node, first_mesh, first_target, moment};
+}
+
+void read_as_source(const GltfFile& file, const MeshChoice& choice, bool is_playable) {
+  const SourceMesh source = read_source("source", file, choice);
   SourceRef ref;
   ref.name = "source";
-  ref.file = name;
+  ref.file = file_of(file);
   succeeds([&] { source_surface(source, ref, {}); });
   succeeds([&] { share_connectivity({source, source}); });
   const std::string written = write_morph_glb(file, still_morph(source.geometry), "fuzz");
   GltfFile again;
   must_succeed("what was written does not open",
-               [&] { again = open_gltf_bytes(written, name.parent_path() / "written.glb"); });
-  if (is_playable) {
-    must_succeed("what was written does not play", [&] { read_animated_mesh(again); });
+               [&] { again = open_gltf_bytes(written, "written.glb"); });
+  MeshChoice same_node;
+  same_node.node = source.geometry.node;
+  must_succeed("what was written is no source", [&] { read_source("again", again, same_node); });
+  if (!is_playable) return;
+  must_succeed("what was written does not play", [&] { read_animated_mesh(again, same_node); });
+}
+
+void read_all(const std::string& bytes, const std::filesystem::path& name) {
+  const GltfFile file = open_gltf_bytes(bytes, name);
+  for (const MeshChoice& choice : choices()) {
+    const bool is_playable = succeeds([&] { read_animated_mesh(file, choice); });
+    succeeds([&] { read_as_source(file, choice, is_playable); });
   }
 }
 

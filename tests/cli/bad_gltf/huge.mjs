@@ -71,7 +71,6 @@ export const legal = {
   'a million skins': [many('skins', { joints: [0] }, MILLION)],
   'a million primitives': [primitives(MILLION)],
   'eight million zeros for positions': [(g) => { g.accessors[0] = { componentType: FLOAT, count: 2 ** 23, type: 'VEC3' }; delete g.meshes[0].primitives[0].attributes.NORMAL; }],
-  'eight million zeros for indices': [(g) => { g.accessors[2] = { componentType: USHORT, count: 8388606, type: 'SCALAR' }; }],
   '10,000 primitives': [primitives(10000)],
   'ten million numbers in extras': [(g) => JSON.stringify({ ...g, extras: ['@'] }).replace('"@"', new Array(1e7).fill(0).join())],
   '100,000 generations of nodes': [(g) => {

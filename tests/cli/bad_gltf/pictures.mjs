@@ -80,15 +80,12 @@ export const previewed = {
   'JPEG of 0 by 0': [textured(jpeg(0, 0)), I, UNREADABLE],
   'GIF for a texture': [textured(Buffer.from('GIF89a\x01\0\x01\0\0\0\0;', 'latin1')), I, UNREADABLE],
   'text for a texture': [textured(Buffer.from('<svg/>  ')), I, UNREADABLE],
-  'image of a missing view': [textured(good, set('images.0.bufferView', 99)), I, 'gltf.'],
+  'image of a missing view': [textured(good, set('images.0.bufferView', 99)), '[gltf.invalid]'],
   'image beyond its buffer': [textured(good, (g) => { g.bufferViews[g.images[0].bufferView].byteLength = 1e6; }), 'gltf.'],
   'image at 4 GB': [textured(good, (g) => { g.bufferViews[g.images[0].bufferView].byteOffset = 4294967292; }), 'gltf.'],
-  'image without bytes': [textured(good, set('images', [{}])), I, 'gltf.'],
-  'image of bad base64': [textured(good, set('images', [{ uri: 'data:image/png;base64,????' }])), I, 'gltf.'],
+  'image without bytes': [textured(good, set('images', [{}])), '[gltf.invalid]'],
+  'image of bad base64': [textured(good, set('images', [{ uri: 'data:image/png;base64,????' }])), '[gltf.invalid]'],
   'missing image file': [textured(good, set('images', [{ uri: 'gone.png' }])), `${I}/uri`, '[gltf.missing-file]'],
-  'texture of a missing image': [textured(good, set('textures.0.source', 44)), '#/textures/0/source', '[gltf.invalid]'],
-  'material of a missing texture': [textured(good, set('materials.0.pbrMetallicRoughness.baseColorTexture.index', 44)), '#/materials/0', '[gltf.invalid]'],
-  'missing material': [textured(good, set('meshes.0.primitives.0.material', 44)), '#/meshes/0/primitives/0/material', '[gltf.invalid]'],
   'fewer texture coordinates': [textured(good, (g) => {
     g.meshes[0].primitives[0].attributes.TEXCOORD_0 = addAccessor(g, new Float32Array(4), 'VEC2', FLOAT);
   }), '#/meshes/0/primitives/0/attributes/TEXCOORD_0', '[gltf.accessor]'],
@@ -97,4 +94,10 @@ export const previewed = {
   }), '#/meshes/0/primitives/0/attributes/TEXCOORD_0', '[gltf.not-finite]'],
 };
 
-export const legal = { 'good texture': [textured(good)] };
+/** Without its texture a mesh is still a mesh. */
+export const legal = {
+  'good texture': [textured(good)],
+  'texture of a missing image': [textured(good, set('textures.0.source', 44))],
+  'material of a missing texture': [textured(good, set('materials.0.pbrMetallicRoughness.baseColorTexture.index', 44))],
+  'missing material': [textured(good, set('meshes.0.primitives.0.material', 44))],
+};
