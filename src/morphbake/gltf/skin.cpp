@@ -78,12 +78,15 @@ SkinBinding read_binding(const GltfDocument& document, const tinygltf::Primitive
   std::vector<BindingSet> sets;
   while (attribute(primitive, fmt::format("JOINTS_{}", sets.size())) >= 0) {
     sets.push_back(read_set(document, primitive, static_cast<int>(sets.size()), pointer));
-    if (sets.back().joints.size() == 4 * vertices && sets.back().weights.size() == 4 * vertices) {
-      continue;
-    }
-    fail_at(document, pointer + "/attributes", "gltf.accessor",
-            fmt::format("JOINTS_{0} and WEIGHTS_{0} need {1} elements, one a position",
-                        sets.size() - 1, vertices));
+    const std::size_t joints = sets.back().joints.size() / 4;
+    const std::size_t weights = sets.back().weights.size() / 4;
+    if (joints == vertices && weights == vertices) continue;
+    fail_at(document,
+            fmt::format("{}/attributes/{}_{}", pointer, joints == vertices ? "WEIGHTS" : "JOINTS",
+                        sets.size() - 1),
+            "gltf.accessor",
+            fmt::format("the attribute has {} elements for {} positions",
+                        joints == vertices ? weights : joints, vertices));
   }
   SkinBinding binding;
   binding.width = 4 * sets.size();

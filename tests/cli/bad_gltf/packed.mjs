@@ -65,7 +65,7 @@ export const dracoCases = {
   'Draco of a hundred million points': spoilt({ points: 100000000 }),
   'Draco of a hundred million points, as its accessor says': [draco(dracoBlob({ points: 100000000 }), (e, g) => { g.accessors[0].count = 100000000; }), 'gltf.'],
   'Draco of packed indices that are none': spoilt({ connectivity: 0 }),
-  'Draco index out of range': [draco(dracoBlob({ indices: new Array(24).fill(77) })), '#/meshes/0/primitives/0/indices', '[gltf.accessor]'],
+  'Draco index out of range': [draco(dracoBlob({ indices: new Array(24).fill(77) })), '#/meshes/0/primitives/0/extensions/KHR_draco_mesh_compression', '[gltf.draco]'],
   'Draco without attributes': spoilt({ decoders: 0 }),
   'Draco of four billion attributes': spoilt({ attributes: 4294967295 }),
   'Draco of 255 columns': spoilt({ columns: 255 }),
