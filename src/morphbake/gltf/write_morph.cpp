@@ -70,6 +70,14 @@ Json& mesh_of(Writing& writing) {
   return writing.draft.json["meshes"][static_cast<std::size_t>(writing.morph.mesh)];
 }
 
+/// Weights of the mesh's own targets at rest.
+Eigen::VectorXd own_weights(const Writing& writing) {
+  const tinygltf::Model& model = writing.document.model;
+  return rest_weights(model.nodes[static_cast<std::size_t>(writing.morph.node)],
+                      model.meshes[static_cast<std::size_t>(writing.morph.mesh)],
+                      writing.own_targets);
+}
+
 /// One attribute of the mesh's primitives: its accessors, and new rows for them.
 struct NewAttribute {
   std::string name;
@@ -109,8 +117,7 @@ void replace_base(Writing& writing) {
   const MeshMorph& morph = writing.morph;
   const std::size_t own_targets = writing.own_targets;
   const tinygltf::Mesh& mesh = document.model.meshes[static_cast<std::size_t>(morph.mesh)];
-  const tinygltf::Node& node = document.model.nodes[static_cast<std::size_t>(morph.node)];
-  const Eigen::VectorXd rest = rest_weights(node, mesh, own_targets);
+  const Eigen::VectorXd rest = own_weights(writing);
   NewAttribute positions{"POSITION", {}}, normals{"NORMAL", {}};
   for (std::size_t p = 0; p < morph.primitives.size(); ++p) {
     const PrimitiveMorph& primitive = morph.primitives[p];
@@ -274,15 +281,11 @@ void extend_animation(Writing& writing, int index) {
 
 /// The timeline: own targets stay at rest.
 void append_animation(Writing& writing) {
-  const GltfDocument& document = writing.document;
   const MeshMorph& morph = writing.morph;
-  const std::size_t own_targets = writing.own_targets;
-  const tinygltf::Mesh& mesh = document.model.meshes[static_cast<std::size_t>(morph.mesh)];
-  const tinygltf::Node& node = document.model.nodes[static_cast<std::size_t>(morph.node)];
-  const auto own = static_cast<Eigen::Index>(own_targets);
+  const auto own = static_cast<Eigen::Index>(writing.own_targets);
   Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> weights(
       morph.key_weights.rows(), own + morph.key_weights.cols());
-  weights.leftCols(own).rowwise() = rest_weights(node, mesh, own_targets).transpose().cast<float>();
+  weights.leftCols(own).rowwise() = own_weights(writing).transpose().cast<float>();
   weights.rightCols(morph.key_weights.cols()) = morph.key_weights;
   const int input = append_scalars(writing.draft, morph.key_times, true);
   const int output = append_scalars(
