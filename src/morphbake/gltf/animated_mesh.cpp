@@ -148,10 +148,11 @@ AnimatedPrimitive read_primitive(const GltfDocument& document, const tinygltf::P
   return primitive;
 }
 
-/// The first animation that moves the weights of `node`; those at rest when there is none.
+/// The last animation that moves the weights of `node`, since a bake appends its own to those of
+/// the source; the weights at rest when there is none.
 AnimationCurve read_weights(const GltfDocument& document, int node, const Eigen::VectorXd& rest) {
   const auto count = static_cast<int>(rest.size());
-  for (std::size_t a = 0; count > 0 && a < document.model.animations.size(); ++a) {
+  for (std::size_t a = document.model.animations.size(); count > 0 && a-- > 0;) {
     for (const tinygltf::AnimationChannel& channel : document.model.animations[a].channels) {
       if (channel.target_node != node || channel.target_path != "weights") continue;
       return read_curve(document, static_cast<int>(a), channel.sampler, count);

@@ -52,7 +52,7 @@ struct AnimatedMesh {
   AnimationCurve weights;  ///< one number a target; without animation the weights at rest
 };
 
-/// Reads a node's mesh from a .glb or .gltf, with its targets and the first animation of their
+/// Reads a node's mesh from a .glb or .gltf, with its targets and the last animation of their
 /// weights. Skins are at rest: the mesh is as it was bound.
 ///
 /// @param choice  which node: none chosen is the first of the scene that has a mesh
