@@ -370,7 +370,8 @@ async function pointedWeights(which) {
 /** Targets and a clip that are called as the new ones will be. */
 async function takenNames(which) {
   const document = await animatedTargets('LINEAR', LINEAR_WEIGHTS)(which);
-  document.json.meshes[0].extras.targetNames = ['b', 'b-2'];
+  const [mesh] = document.json.meshes;
+  mesh.extras = { ...mesh.extras, targetNames: ['b', 'b-2'] };
   document.json.animations[0].name = 'taken-names';
   return document;
 }
