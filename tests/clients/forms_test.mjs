@@ -121,7 +121,8 @@ async function testForm(name) {
   const baking = path.join(output, 'baked');
   bake(morphbake, writeRecipe(name, files, folder), baking);
   const file = path.join(baking, `${name}.glb`);
-  for (const issue of newIssues(issues, await countIssues(file))) checks.check(false, `${name}: ${issue}`);
+  const isExpected = (issue) => (FORMS[name].tells ?? []).some((kind) => issue.startsWith(kind));
+  for (const issue of newIssues(issues, await countIssues(file))) checks.check(isExpected(issue), `${name}: ${issue}`);
   const [a, b, baked] = await Promise.all([files.a, files.b, file].map(openPlain));
   const startsThere = FORMS[name].a === undefined && FORMS[name].start === undefined;
   const node = subjectOf(a, FORMS[name].select);
