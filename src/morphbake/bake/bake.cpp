@@ -34,7 +34,7 @@ BakeReport bake(const Recipe& asked, const BakeOptions& options, const Observer&
   const std::vector<SourceMesh>& sources = connected.sources;
   const MorphableMesh mesh = share_sources(sources, connected.report, observer);
   clock.start("transition");
-  const std::vector<Eigen::VectorXd> regions = region_distances(mesh, recipe);
+  const RegionFields regions = region_fields(mesh, recipe);
   clock.start("solve");
   const std::unique_ptr<SolvedTimeline> timeline =
       solve_timeline(recipe, mesh, regions, options.solve, observer);
@@ -73,7 +73,7 @@ void validate(const Recipe& asked, const BakeOptions& options, const Observer& o
   auto [recipe, loaded] = load_aligned(asked, observer);
   ConnectedSources connected = connect_sources(recipe, std::move(loaded), Measuring::Off, observer);
   const MorphableMesh mesh = share_sources(connected.sources, connected.report, observer);
-  check_timeline(recipe, mesh, region_distances(mesh, recipe), options.solve);
+  check_timeline(recipe, mesh, region_fields(mesh, recipe), options.solve);
 }
 
 }  // namespace morphbake

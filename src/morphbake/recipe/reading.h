@@ -69,6 +69,12 @@ int look_up(Reading& reading, const std::vector<Named>& all, std::string_view ki
   return index;
 }
 
+/// Complains unless exactly one of `fields` is given.
+///
+/// @param what  the fields are, in the singular: "kind of region"
+void check_one_of(Reading& reading, const Json& json, const std::vector<const char*>& fields,
+                  const char* what, const std::string& pointer);
+
 /// A name as the key of an object: complains when it is longer than importers take (63 bytes).
 void check_name_length(Reading& reading, const std::string& name, const std::string& pointer);
 
@@ -80,6 +86,16 @@ int read_region_field(Reading& reading, const Json& parent, const std::string& p
 
 /// A whole number; one that is out of range, which the schema has reported, must not overflow.
 int whole_number(const Json& json);
+
+/// The whole number in a field of `owner`; 0 where it is missing.
+int whole_number(const Json& owner, const char* field);
+
+/// The name or index in a field of `owner`, or no choice.
+NameOrIndex name_or_index(const Json& owner, const char* field);
+
+/// The absolute file that `as_written` names; complains when there is none.
+std::filesystem::path existing_file(Reading& reading, const Json& as_written,
+                                    const std::string& pointer);
 
 Ease ease_of(const Json& name);
 

@@ -23,10 +23,16 @@ void for_each_neighbour(const OneRings& rings, Eigen::Index i, const Visit& visi
 
 /// sum_s T_s V_s, vertex by vertex: what linear interpolation of positions would give.
 Positions blend_positions(const std::vector<Positions>& geometries, const Eigen::MatrixXd& shares) {
-  Positions blended = Positions::Zero(shares.cols(), 3);
+  const Eigen::Index count = geometries.front().rows();
+  const bool is_per_axis = shares.cols() > count;
+  Positions blended = Positions::Zero(count, 3);
   for (std::size_t s = 0; s < geometries.size(); ++s) {
-    const Eigen::VectorXd share = shares.row(static_cast<Eigen::Index>(s));
-    if (!share.isZero(0)) blended += share.asDiagonal() * geometries[s];
+    for (Eigen::Index axis = 0; axis < 3; ++axis) {
+      const Eigen::ArrayXd share =
+          shares.row(static_cast<Eigen::Index>(s)).segment(is_per_axis ? axis * count : 0, count);
+      if (share.isZero(0)) continue;
+      blended.col(axis).array() += share * geometries[s].col(axis).array();
+    }
   }
   return blended;
 }
@@ -45,16 +51,20 @@ Positions component_centres(const Components& components, const Positions& posit
 
 std::vector<bool> uniform_components(const Components& components, const Eigen::MatrixXd& shares) {
   std::vector<bool> uniform(static_cast<std::size_t>(components.count), true);
-  std::vector<Eigen::Index> first(static_cast<std::size_t>(components.count), -1);
-  for (Eigen::Index v = 0; v < shares.cols(); ++v) {
-    const auto component = static_cast<std::size_t>(components.label[static_cast<std::size_t>(v)]);
-    if (first[component] < 0) first[component] = v;
-    if (shares.col(v) != shares.col(first[component])) uniform[component] = false;
+  const auto count = static_cast<Eigen::Index>(components.label.size());
+  for (Eigen::Index block = 0; block < shares.cols(); block += count) {  // one, or one an axis
+    std::vector<Eigen::Index> first(static_cast<std::size_t>(components.count), -1);
+    for (Eigen::Index v = 0; v < count; ++v) {
+      const auto component =
+          static_cast<std::size_t>(components.label[static_cast<std::size_t>(v)]);
+      if (first[component] < 0) first[component] = v;
+      if (shares.col(block + v) != shares.col(block + first[component])) uniform[component] = false;
+    }
   }
   return uniform;
 }
 
-/// g_i = sum_s sum_j |T_s,i - T_s,j|: how much the shares vary around each vertex.
+/// g_i = sum_s sum_j |T_s,i - T_s,j|: how much the shares of one axis vary around each vertex.
 Eigen::VectorXd share_variation(const OneRings& rings, const Eigen::MatrixXd& shares) {
   Eigen::VectorXd variation = Eigen::VectorXd::Zero(shares.cols());
   for (Eigen::Index i = 0; i < shares.cols(); ++i) {
@@ -151,12 +161,24 @@ void DisplacementSystem::assemble() {
 /// `edge` does by itself. For `vertex` the imbalance is spread where the shares vary, or, with an
 /// anchor, thrown into its equation, as section 4.3 of the paper does by dropping it.
 void DisplacementSystem::balance(const Eigen::MatrixXd& change, Goal& goal) const {
-  Positions sums = Positions::Zero(components_.count, 3);
-  const Eigen::VectorXd variation = share_variation(rings_, change);
-  Eigen::VectorXd variations = Eigen::VectorXd::Zero(components_.count);
+  const Eigen::Index count = goal.differences.rows();
+  const bool is_per_axis = change.cols() > count;
+  Eigen::VectorXd variation;
+  for (Eigen::Index axis = 0; axis < 3; ++axis) {
+    if (axis == 0 || is_per_axis) {
+      variation = share_variation(rings_, change.middleCols(is_per_axis ? axis * count : 0, count));
+    }
+    balance_axis(variation, axis, goal);
+  }
+}
+
+void DisplacementSystem::balance_axis(const Eigen::VectorXd& variation, Eigen::Index axis,
+                                      Goal& goal) const {
+  Eigen::VectorXd sums = Eigen::VectorXd::Zero(components_.count), variations = sums;
+  auto b = goal.differences.col(axis);
   for (Eigen::Index v = 0; v < variation.size(); ++v) {
     const int component = components_.label[static_cast<std::size_t>(v)];
-    sums.row(component) += goal.differences.row(v);
+    sums(component) += b(v);
     variations(component) += variation(v);
   }
   for (Eigen::Index v = 0; v < variation.size(); ++v) {
@@ -164,10 +186,10 @@ void DisplacementSystem::balance(const Eigen::MatrixXd& change, Goal& goal) cons
     const auto c = static_cast<std::size_t>(component);
     if (component_holds_[c] || !(variations(component) > 0)) continue;
     if (constraints_.anchor[c] < 0) {
-      goal.differences.row(v) -= variation(v) / variations(component) * sums.row(component);
+      b(v) -= variation(v) / variations(component) * sums(component);
     } else if (constraints_.anchor[c] == v) {
-      goal.differences.row(v) -= sums.row(component);
-      goal.imbalance.row(component) = sums.row(component);
+      b(v) -= sums(component);
+      goal.imbalance(component, axis) = sums(component);
     }
   }
 }
@@ -186,10 +208,14 @@ Goal DisplacementSystem::goal(const Eigen::MatrixXd& change) const {
   }
   goal.start = goal.blend;
   if (goal.is_blend()) return goal;
-  for (Eigen::Index v = 0; v < goal.start.rows(); ++v) {
+  const Eigen::Index count = goal.start.rows(), stride = change.cols() > count ? count : 0;
+  for (Eigen::Index v = 0; v < count; ++v) {
     const int component = components_.label[static_cast<std::size_t>(v)];
     for (std::size_t s = 0; s < centres_.size(); ++s) {
-      goal.start.row(v) -= change(static_cast<Eigen::Index>(s), v) * centres_[s].row(component);
+      for (Eigen::Index axis = 0; axis < 3; ++axis) {
+        goal.start(v, axis) -= change(static_cast<Eigen::Index>(s), v + axis * stride) *
+                               centres_[s](component, axis);
+      }
     }
   }
   if (rule_ == RightHandSide::Edge) {

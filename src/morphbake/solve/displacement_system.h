@@ -47,7 +47,7 @@ class DisplacementSystem {
 
   double diagonal() const { return diagonal_; }
 
-  /// @param change  dT: #sources by #V, columns sum to 0
+  /// @param change  dT: #sources by #V, or 3 #V as TransitionState; columns sum to 0
   /// @throws BakeError "solve.not-finite"
   Goal goal(const Eigen::MatrixXd& change) const;
 
@@ -72,6 +72,7 @@ class DisplacementSystem {
   void number_unknowns();
   void assemble();
   void balance(const Eigen::MatrixXd& change, Goal& goal) const;
+  void balance_axis(const Eigen::VectorXd& variation, Eigen::Index axis, Goal& goal) const;
 
   const MorphableMesh& mesh_;
   OneRings rings_;
