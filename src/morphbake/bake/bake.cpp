@@ -6,12 +6,21 @@
 #include "morphbake/bake/previews.h"
 #include "morphbake/bake/share_sources.h"
 #include "morphbake/bake/stage_clock.h"
+#include "morphbake/transition/masks.h"
 #include "morphbake/transition/regions.h"
 
 namespace morphbake {
 namespace {
 
 std::filesystem::path stem_of(std::filesystem::path file) { return file.replace_extension(); }
+
+/// The recipe's regions, masks read from the files as they were loaded.
+RegionFields fields_of(const MorphableMesh& mesh, const Recipe& recipe,
+                       const ConnectedSources& connected) {
+  const bool is_new = !connected.originals.empty();
+  return region_fields(
+      mesh, recipe, mask_values(mesh, recipe, is_new ? connected.originals : connected.sources));
+}
 
 std::filesystem::path with_ending(const std::filesystem::path& file, const char* ending) {
   return stem_of(file) += ending;
@@ -34,7 +43,7 @@ BakeReport bake(const Recipe& asked, const BakeOptions& options, const Observer&
   const std::vector<SourceMesh>& sources = connected.sources;
   const MorphableMesh mesh = share_sources(sources, connected.report, observer);
   clock.start("transition");
-  const RegionFields regions = region_fields(mesh, recipe);
+  const RegionFields regions = fields_of(mesh, recipe, connected);
   clock.start("solve");
   const std::unique_ptr<SolvedTimeline> timeline =
       solve_timeline(recipe, mesh, regions, options.solve, observer);
@@ -73,7 +82,7 @@ void validate(const Recipe& asked, const BakeOptions& options, const Observer& o
   auto [recipe, loaded] = load_aligned(asked, observer);
   ConnectedSources connected = connect_sources(recipe, std::move(loaded), Measuring::Off, observer);
   const MorphableMesh mesh = share_sources(connected.sources, connected.report, observer);
-  check_timeline(recipe, mesh, region_fields(mesh, recipe), options.solve);
+  check_timeline(recipe, mesh, fields_of(mesh, recipe, connected), options.solve);
 }
 
 }  // namespace morphbake

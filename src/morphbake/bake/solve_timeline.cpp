@@ -75,10 +75,10 @@ std::string changed_by(const TimelineChanges& changes, Eigen::Index vertex) {
   return "";
 }
 
-TimelineChanges changes_of_fields(SeparableTimeline separable, Eigen::Index count) {
+TimelineChanges changes_of_fields(SeparableTimeline separable) {
   TimelineChanges changes;
   changes.reference = separable.reference;
-  changes.untouched = untouched_vertices(separable, count);
+  changes.untouched = untouched_vertices(separable);
   changes.separable = std::move(separable);
   return changes;
 }
@@ -110,7 +110,7 @@ Shares start_of(const Recipe& recipe) {
 TimelineChanges changes_of(const Recipe& recipe, const RegionFields& regions, Eigen::Index count) {
   TimelineChanges changes;
   if (is_separable(recipe, regions)) {
-    changes = changes_of_fields(separate_timeline(recipe, regions, count), count);
+    changes = changes_of_fields(separate_timeline(recipe, regions, count));
   } else {
     changes.reference = start_of(recipe);
   }
@@ -367,7 +367,7 @@ Positions position_at(const Recipe& recipe, const MorphableMesh& mesh, const Reg
 Positions solve_state(const Recipe& recipe, const State& state, const MorphableMesh& mesh,
                       const RegionFields& regions, const SolveOptions& options) {
   const Eigen::Index count = mesh.connectivity.vertex_count;
-  const TimelineChanges changes = changes_of_fields(separate_state(state, regions, count), count);
+  const TimelineChanges changes = changes_of_fields(separate_state(state, regions, count));
   const auto system = make_system(recipe, mesh, regions, changes, options.right_hand_side);
   const Observer nobody;
   const SurfaceSolver solver(*system, options, nobody);

@@ -43,6 +43,7 @@ Output read_output(Reading& reading, const Json& json, const std::string& pointe
              "outputs are written below the recipe's folder; --output-dir chooses another one");
   }
   if (json.value("targets", "") == "frames") output.targets = TargetKind::Frames;
+  if (json.value("targets", "") == "tracks") output.targets = TargetKind::Tracks;
   output.max_normal_error = read_normal_bounds(json);
   output.unmet_is_error = json.value("unmet", "") != "warning";
   if (!json.contains("still")) return output;

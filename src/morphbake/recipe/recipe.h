@@ -11,6 +11,7 @@
 
 #include "morphbake/diagnostics/problem.h"
 #include "morphbake/gltf/mesh_choice.h"
+#include "morphbake/recipe/derived_source.h"
 #include "morphbake/recipe/landmark.h"
 #include "morphbake/recipe/region.h"
 
@@ -170,6 +171,7 @@ struct Recipe {
   std::string name;
   Units units = Units::Diagonal;
   std::vector<SourceRef> sources;
+  std::vector<DerivedSource> derived;  ///< shapes after those of the sources, each after its own
   ConnectivityRequest connectivity;
   std::vector<RegionOfInterest> regions;
   std::vector<State> states;

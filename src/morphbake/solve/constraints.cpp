@@ -65,8 +65,9 @@ void UntouchedVertices::add(const Eigen::MatrixXd& change) {
   }
 }
 
-std::vector<bool> untouched_vertices(const SeparableTimeline& timeline, Eigen::Index vertex_count) {
-  UntouchedVertices untouched(vertex_count);
+std::vector<bool> untouched_vertices(const SeparableTimeline& timeline) {
+  const Eigen::Index columns = timeline.fields.front().change.cols();
+  UntouchedVertices untouched(columns / timeline.reference.cols());
   for (const TransitionField& field : timeline.fields) untouched.add(field.change);
   return untouched.mask();
 }

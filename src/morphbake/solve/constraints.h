@@ -48,7 +48,7 @@ class UntouchedVertices {
 };
 
 /// Of a separable timeline.
-std::vector<bool> untouched_vertices(const SeparableTimeline& timeline, Eigen::Index vertex_count);
+std::vector<bool> untouched_vertices(const SeparableTimeline& timeline);
 
 /// @param untouched  #V
 /// @see              docs/method.md, "What stays" and "Where it stands"

@@ -10,12 +10,14 @@
 
 #include "morphbake/diagnostics/problem.h"
 #include "morphbake/json/json.h"
+#include "morphbake/mesh/adjacency.h"
 #include "morphbake/mesh/closest_point.h"
 #include "morphbake/mesh/measures.h"
 #include "morphbake/transition/harmonic.h"
 #include "morphbake/transition/rings.h"
 #include "morphbake/transition/spatial.h"
 #include "morphbake/transition/surface_distance.h"
+#include "morphbake/transition/timeline.h"
 
 namespace morphbake {
 namespace {
