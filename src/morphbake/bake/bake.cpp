@@ -4,6 +4,7 @@
 #include "morphbake/bake/load_sources.h"
 #include "morphbake/bake/outputs.h"
 #include "morphbake/bake/previews.h"
+#include "morphbake/bake/region_pictures.h"
 #include "morphbake/bake/share_sources.h"
 #include "morphbake/bake/stage_clock.h"
 #include "morphbake/transition/masks.h"
@@ -24,6 +25,21 @@ RegionFields fields_of(const MorphableMesh& mesh, const Recipe& recipe,
 
 std::filesystem::path with_ending(const std::filesystem::path& file, const char* ending) {
   return stem_of(file) += ending;
+}
+
+/// Stages the pictures that explain the recipe, beside the first output.
+void stage_maps(const SolvedRecipe& solved, const BakeOptions& options, const Observer& observer,
+                StagedOutput& first, PendingOutputs& outputs) {
+  const auto& [recipe, source, mesh, regions, timeline, groups] = solved;
+  for (const MapKind kind : recipe.preview->maps) {
+    const bool of_regions = kind == MapKind::Regions;
+    const std::filesystem::path file =
+        with_ending(recipe.outputs.front().file, of_regions ? ".regions.png" : ".shares.png");
+    outputs.stage(file, encode_png(of_regions
+                                       ? region_sheet(recipe, mesh, regions, options, observer)
+                                       : share_sheet(recipe, mesh, regions, timeline, options)));
+    first.report.previews.push_back(file);
+  }
 }
 
 }  // namespace
@@ -63,6 +79,7 @@ BakeReport bake(const Recipe& asked, const BakeOptions& options, const Observer&
           turntable_of(*recipe.preview, options), recipe.preview->formats, observer, outputs);
     }
   }
+  if (recipe.preview) stage_maps(solved, options, observer, staged.front(), outputs);
   outputs.commit();
   for (StagedOutput& each : staged) bake_report.outputs.push_back(std::move(each.report));
 

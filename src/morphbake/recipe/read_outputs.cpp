@@ -71,6 +71,24 @@ std::vector<PreviewFormat> read_formats(Reading& reading, const Json& json) {
   return formats;
 }
 
+std::vector<MapKind> read_maps(Reading& reading, const Json& preview) {
+  std::vector<MapKind> maps;
+  const Json json = preview.value("maps", Json::array());
+  for (std::size_t i = 0; i < json.size(); ++i) {
+    const auto kind = json[i] == "regions" ? MapKind::Regions : MapKind::Shares;
+    if (std::find(maps.begin(), maps.end(), kind) != maps.end()) {
+      complain(reading, "recipe.bad-value", child_pointer("/preview/maps", i),
+               fmt::format("maps lists {} twice", shown(json[i])), "remove one of them");
+    }
+    if (kind == MapKind::Regions && reading.recipe.regions.empty()) {
+      complain(reading, "recipe.missing-field", child_pointer("/preview/maps", i),
+               "there is no region to draw", "add \"regions\", or remove the map");
+    }
+    maps.push_back(kind);
+  }
+  return maps;
+}
+
 bool same_file(const fs::path& a, const fs::path& b) {
   std::error_code error;
   if (a.lexically_normal() == b.lexically_normal()) return true;

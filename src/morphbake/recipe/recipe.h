@@ -158,11 +158,18 @@ struct Output {
 
 enum class PreviewFormat { Png, Gif, Sheet };
 
+/// Pictures that explain a recipe instead of showing its result.
+enum class MapKind {
+  Regions,  ///< where each region is
+  Shares,   ///< which source dominates where, over the timeline
+};
+
 struct PreviewRequest {
   int width = 512;
   int height = 512;
   int frames = 72;
   std::vector<PreviewFormat> formats;
+  std::vector<MapKind> maps = {};
 };
 
 /// A scene recipe, all names resolved to indices, all defaults filled in.
