@@ -149,6 +149,7 @@ void read_preview(Reading& reading) {
   }
   if (turntable.contains("frames")) preview.frames = whole_number(turntable["frames"]);
   preview.formats = read_formats(reading, json->value("formats", Json::array({"gif", "sheet"})));
+  preview.maps = read_maps(reading, *json);
   const double pixels = 1.0 * preview.width * preview.height * preview.frames;
   if (pixels > preview_pixel_limit) {
     complain(reading, "recipe.out-of-range", "/preview/turntable",
