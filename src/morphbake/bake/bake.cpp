@@ -1,12 +1,14 @@
 #include "morphbake/bake/bake.h"
 
 #include "morphbake/bake/connect_sources.h"
+#include "morphbake/bake/derive_sources.h"
 #include "morphbake/bake/load_sources.h"
 #include "morphbake/bake/outputs.h"
 #include "morphbake/bake/previews.h"
 #include "morphbake/bake/region_pictures.h"
 #include "morphbake/bake/share_sources.h"
 #include "morphbake/bake/stage_clock.h"
+#include "morphbake/transition/fit.h"
 #include "morphbake/transition/masks.h"
 #include "morphbake/transition/regions.h"
 
@@ -15,12 +17,15 @@ namespace {
 
 std::filesystem::path stem_of(std::filesystem::path file) { return file.replace_extension(); }
 
-/// The recipe's regions, masks read from the files as they were loaded.
-RegionFields fields_of(const MorphableMesh& mesh, const Recipe& recipe,
-                       const ConnectedSources& connected) {
-  const bool is_new = !connected.originals.empty();
-  return region_fields(
+/// The recipe's regions, and the shapes that are made from its sources with their help.
+RegionFields shape_sources(Recipe& recipe, const ConnectedSources& connected, MorphableMesh& mesh,
+                           const Observer& observer) {
+  const bool is_new = !connected.originals.empty();  // masks are read from the files as loaded
+  RegionFields regions = region_fields(
       mesh, recipe, mask_values(mesh, recipe, is_new ? connected.originals : connected.sources));
+  derive_sources(recipe, regions, mesh, observer);
+  fit_edits(recipe, mesh, regions);
+  return regions;
 }
 
 std::filesystem::path with_ending(const std::filesystem::path& file, const char* ending) {
@@ -57,9 +62,9 @@ BakeReport bake(const Recipe& asked, const BakeOptions& options, const Observer&
                         options, observer);
   ConnectedSources connected = connect_sources(recipe, std::move(loaded), Measuring::On, observer);
   const std::vector<SourceMesh>& sources = connected.sources;
-  const MorphableMesh mesh = share_sources(sources, connected.report, observer);
+  MorphableMesh mesh = share_sources(sources, connected.report, observer);
   clock.start("transition");
-  const RegionFields regions = fields_of(mesh, recipe, connected);
+  const RegionFields regions = shape_sources(recipe, connected, mesh, observer);
   clock.start("solve");
   const std::unique_ptr<SolvedTimeline> timeline =
       solve_timeline(recipe, mesh, regions, options.solve, observer);
@@ -98,8 +103,9 @@ BakeReport bake(const Recipe& asked, const BakeOptions& options, const Observer&
 void validate(const Recipe& asked, const BakeOptions& options, const Observer& observer) {
   auto [recipe, loaded] = load_aligned(asked, observer);
   ConnectedSources connected = connect_sources(recipe, std::move(loaded), Measuring::Off, observer);
-  const MorphableMesh mesh = share_sources(connected.sources, connected.report, observer);
-  check_timeline(recipe, mesh, fields_of(mesh, recipe, connected), options.solve);
+  MorphableMesh mesh = share_sources(connected.sources, connected.report, observer);
+  const RegionFields regions = shape_sources(recipe, connected, mesh, observer);
+  check_timeline(recipe, mesh, regions, options.solve);
 }
 
 }  // namespace morphbake

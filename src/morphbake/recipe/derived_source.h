@@ -20,8 +20,9 @@ struct BandSource {
 struct Movement {
   Eigen::Vector3d translate = Eigen::Vector3d::Zero();  ///< in `Recipe::units`
   Eigen::Vector3d axis = Eigen::Vector3d::UnitY();      ///< any length but 0
-  double degrees = 0;
-  Eigen::Vector3d scale = Eigen::Vector3d::Ones();  ///< along x, y, z
+  double degrees = 0;                                   ///< counter-clockwise seen against it
+  double scale = 1;
+  std::optional<Eigen::Vector3d> scale_along;  ///< only in this direction; none: in all
 };
 
 /// Where a handle is, of the edited shape.

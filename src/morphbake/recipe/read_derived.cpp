@@ -20,7 +20,6 @@ std::string way_of(const Json& source) {
 Eigen::Vector3d vector_of(const Json& owner, const char* field, const Eigen::Vector3d& otherwise) {
   if (!owner.contains(field)) return otherwise;
   const Json& json = owner[field];
-  if (json.is_number()) return Eigen::Vector3d::Constant(json.get<double>());
   return {json[0].get<double>(), json[1].get<double>(), json[2].get<double>()};
 }
 
@@ -37,7 +36,14 @@ Eigen::Vector3d read_direction(Reading& reading, const Json& owner, const std::s
 Movement read_movement(Reading& reading, const Json& json, const std::string& pointer) {
   Movement movement;
   movement.translate = vector_of(json, "translate", movement.translate);
-  movement.scale = vector_of(json, "scale", movement.scale);
+  if (json.contains("scale")) {
+    const Json& scale = json["scale"];
+    movement.scale = scale.is_object() ? scale["factor"].get<double>() : scale.get<double>();
+    if (scale.is_object()) {
+      movement.scale_along = read_direction(reading, scale, pointer + "/scale", "along",
+                                            Eigen::Vector3d::UnitY());
+    }
+  }
   if (json.contains("rotate")) {
     const Json& rotate = json["rotate"];
     movement.axis = read_direction(reading, rotate, pointer + "/rotate", "axis", movement.axis);

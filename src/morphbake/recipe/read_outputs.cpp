@@ -75,7 +75,7 @@ std::vector<MapKind> read_maps(Reading& reading, const Json& preview) {
   std::vector<MapKind> maps;
   const Json json = preview.value("maps", Json::array());
   for (std::size_t i = 0; i < json.size(); ++i) {
-    const auto kind = json[i] == "regions" ? MapKind::Regions : MapKind::Shares;
+    const auto kind = json[i] == "regions" ? MapKind::Regions : MapKind::Mix;
     if (std::find(maps.begin(), maps.end(), kind) != maps.end()) {
       complain(reading, "recipe.bad-value", child_pointer("/preview/maps", i),
                fmt::format("maps lists {} twice", shown(json[i])), "remove one of them");

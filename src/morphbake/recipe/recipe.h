@@ -161,7 +161,7 @@ enum class PreviewFormat { Png, Gif, Sheet };
 /// Pictures that explain a recipe instead of showing its result.
 enum class MapKind {
   Regions,  ///< where each region is
-  Shares,   ///< which source dominates where, over the timeline
+  Mix,      ///< which source dominates where, over the timeline
 };
 
 struct PreviewRequest {
