@@ -16,17 +16,20 @@ const PACKED = ['EXT_meshopt_compression', 'KHR_draco_mesh_compression'];
  *
  * @param node        index of the node that morphs
  * @param startsThere false: the first shape is another than the source's, so its positions and normals may change
+ * @param dropsSkin   true: the node is posed once and for all, so it has no skin any more
  * @param clips       how many animations were added
  * @return            differences in words, [] when everything is kept
  */
-export async function findLost(sourceFile, outputFile, { node, startsThere = true, clips = 1 }) {
+export async function findLost(sourceFile, outputFile, { node, startsThere = true, dropsSkin = false, clips = 1 }) {
   const [before, after] = [await openPlain(sourceFile), await openPlain(outputFile)];
-  return compareDocuments(before, after, { node, startsThere, clips });
+  return compareDocuments(before, after, { node, startsThere, dropsSkin, clips });
 }
 
 /** The same for documents of openPlain(). */
-export function compareDocuments(before, after, { node, startsThere = true, clips = 1 }) {
+export function compareDocuments(before, after, { node, startsThere = true, dropsSkin = false, clips = 1 }) {
   const lost = checkSelfContained(after);
+  const dropped = new Set();
+  if (dropsSkin) before = { ...before, json: withoutSkin(before.json, node, dropped) };
   const mesh = before.json.nodes[node].mesh;
   const left = structuredClone(after.json);
   const subject = { before: structuredClone(before.json), after: left, mesh, node, lost };
@@ -35,16 +38,46 @@ export function compareDocuments(before, after, { node, startsThere = true, clip
   takeWeightSamplers(subject);
   takeAddedTargets(subject, after);
   const moved = startsThere ? new Set() : allowOtherStart(subject);
-  takeTail(subject, new Set([...weighed, ...moved]), before.unpacked);
+  const free = new Set([...weighed, ...moved, ...dropped]);
+  takeTail(subject, { changed: free, dropped, unpacked: before.unpacked });
   takeRightBounds(subject.before, after, left, before.unpacked);
   const kept = { ...subject.before, images: takeImages(before, after, left, lost) };
   for (const json of [kept, left]) forgetAllowed(json);
   differences(kept, left, '', lost);
   if (lost.length > 0) return lost;  // values are compared where the JSON is alike
-  compareAccessors(before, after, new Set([...weighed, ...moved]), lost);
-  if (before.unpacked.size === 0) compareViews(before, after, new Set([...weighed, ...moved]), lost);
+  compareAccessors(before, after, free, lost);
+  if (before.unpacked.size === 0) compareViews(before, after, free, lost);
   compareImages(before, after, lost);
   return lost;
+}
+
+/**
+ * The source's JSON without the skin of a node. Its mesh has nothing of joints any more; another node that has it keeps it,
+ * and ours a copy.
+ *
+ * @param dropped  gets the accessors that nothing uses any more
+ */
+function withoutSkin(json, node, dropped) {
+  const copy = structuredClone(json);
+  const { skin, mesh } = copy.nodes[node];
+  delete copy.nodes[node].skin;
+  const has = (key, value) => copy.nodes.some((each, i) => i !== node && each.skin !== undefined && each[key] === value);
+  if (has('mesh', mesh)) copy.nodes[node].mesh = copy.meshes.push(structuredClone(copy.meshes[mesh])) - 1;
+  for (const { attributes } of copy.meshes[copy.nodes[node].mesh].primitives)
+    for (const name of Object.keys(attributes)) if (/^(JOINTS|WEIGHTS)_/.test(name)) delete attributes[name];
+  if (!has('skin', skin)) {
+    copy.skins.splice(skin, 1);
+    if (copy.skins.length === 0) delete copy.skins;
+    for (const each of copy.nodes) if (each.skin > skin) each.skin--;
+  }
+  const used = usedAccessors(copy);
+  for (const index of usedAccessors(json)) if (!used.has(index) && index !== undefined) dropped.add(index);
+  return copy;
+}
+
+/** Lets whatever stands in the place of a part differ, or the place be gone. */
+function takeAll(before, after, index) {
+  if (after?.[index] !== undefined) after[index] = structuredClone(before[index]);
 }
 
 /** The output is one file without compression. */
@@ -73,7 +106,13 @@ const targetCount = (json, mesh) => json.meshes?.[mesh]?.primitives?.[0]?.target
 /** The channels of the source's animations that weigh the mesh's targets: {a, c, sampler}. */
 const weightChannels = (json, mesh) => (json.animations ?? []).flatMap(({ channels }, a) =>
   channels.flatMap(({ sampler, target }, c) =>
-    (target.path === 'weights' && json.nodes[target.node]?.mesh === mesh ? [{ a, c, sampler }] : [])));
+    (isOfWeights(json, target, mesh) ? [{ a, c, sampler }] : [])));
+
+function isOfWeights({ nodes }, { node, path, extensions }, mesh) {
+  const [, list, index] = /^\/(nodes|meshes)\/(\d+)\/weights$/.exec(extensions?.KHR_animation_pointer?.pointer) ?? [];
+  if (path === 'pointer') return list === 'meshes' ? Number(index) === mesh : nodes[Number(index)]?.mesh === mesh;
+  return path === 'weights' && nodes[node]?.mesh === mesh;
+}
 
 /** Compares weights of the old targets in old animations. @return the accessors that nothing else reads */
 function unpadWeights({ before, after }, { mesh, lost }) {
@@ -200,16 +239,15 @@ function usedAccessors({ meshes = [], animations = [], skins = [] }) {
   ]);
 }
 
-/** Cuts accessors and views after the source's, and lets `changed` accessors differ. */
-function takeTail({ before, after }, changed, unpacked) {
+/** Cuts accessors and views after the source's, and lets `changed` accessors differ; those of `dropped` may be any. */
+function takeTail({ before, after }, { changed, dropped, unpacked }) {
   cut(after, 'accessors', before.accessors?.length ?? 0, before.accessors);
   cut(after, 'bufferViews', before.bufferViews?.length ?? 0, before.bufferViews);
   for (const i of changed) {
-    const { bufferView: view } = before.accessors[i];
-    takeOver(before.accessors[i], after.accessors?.[i],
+    takeViews(before, after, i, { changed, dropped });
+    if (dropped.has(i)) takeAll(before.accessors, after.accessors, i);
+    else takeOver(before.accessors[i], after.accessors?.[i],
       ['bufferView', 'byteOffset', 'componentType', 'normalized', 'count', 'min', 'max', 'sparse']);
-    if (view !== undefined && isOnlyOf(before, view, changed))
-      takeOver(before.bufferViews[view], after.bufferViews?.[view], ['byteLength', 'byteStride']);
   }
   if (unpacked.size === 0) return;
   // Draco's own views are gone, so the others may have moved up: accessors are compared by value, views not at all.
@@ -219,6 +257,19 @@ function takeTail({ before, after }, changed, unpacked) {
       if (accessor.bufferView !== undefined) accessor.bufferView = 'some view';
       if (unpacked.has(i)) delete accessor.byteOffset;
     });
+  }
+}
+
+const viewsOf = ({ bufferView, sparse }) =>
+  [bufferView, sparse?.indices.bufferView, sparse?.values.bufferView].filter((view) => view !== undefined);
+
+/** Lets views that only changed accessors have differ: the own one in its size, those of sparse in all. */
+function takeViews(before, after, index, { changed, dropped }) {
+  const accessor = before.accessors[index];
+  for (const view of viewsOf(accessor)) {
+    if (!isOnlyOf(before, view, changed)) continue;
+    if (view !== accessor.bufferView || dropped.has(index)) takeAll(before.bufferViews, after.bufferViews, view);
+    else takeOver(before.bufferViews[view], after.bufferViews?.[view], ['byteLength', 'byteStride', 'target']);
   }
 }
 
@@ -232,7 +283,7 @@ function takeOver(from, to, keys) {
 }
 
 const isOnlyOf = (json, view, accessors) =>
-  json.accessors.every((accessor, i) => accessor.bufferView !== view || accessors.has(i));
+  json.accessors.every((accessor, i) => !viewsOf(accessor).includes(view) || accessors.has(i));
 
 /** Lets bounds that the source tells wrongly be right, or those that came out of Draco be gone. */
 function takeRightBounds(before, after, left, unpacked) {
@@ -316,7 +367,7 @@ function viewBytes({ json, bin }, i) {
 function compareViews(before, after, changed, lost) {
   (before.json.bufferViews ?? []).forEach((_, i) => {
     const isFree = isOnlyOf(before.json, i, changed) &&
-      [...changed].some((accessor) => before.json.accessors[accessor]?.bufferView === i);
+      [...changed].some((accessor) => viewsOf(before.json.accessors[accessor]).includes(i));
     if (isFree || before.filtered.has(i) || !after.json.bufferViews?.[i]) return;
     if (!viewBytes(before, i).equals(viewBytes(after, i))) lost.push(`/bufferViews/${i}: other bytes`);
   });

@@ -25,16 +25,18 @@ Positions still_positions(const SolvedRecipe& solved, const Still& still,
   return solve_state(recipe, state, solved.mesh, solved.regions, options);
 }
 
+void warn_of_no_targets(const Recipe& recipe, std::size_t index, const Observer& observer) {
+  report(observer,
+         Problem{Severity::Warning,
+                 "basis.nothing-moves",
+                 {recipe.file.string(), fmt::format("/outputs/{}", index), 0, 0},
+                 "no track or key changes any vertex: the file is a plain mesh",
+                 "check that regions reach vertices, and that tracks lead to another source"});
+}
+
+/// @param count  targets of the mesh that is written: its own and the new ones
 void warn_of_targets(const Recipe& recipe, std::size_t index, std::size_t count,
                      const Observer& observer) {
-  if (count == 0) {
-    report(observer,
-           Problem{Severity::Warning,
-                   "basis.nothing-moves",
-                   {recipe.file.string(), fmt::format("/outputs/{}", index), 0, 0},
-                   "no track or key changes any vertex: the file is a plain mesh",
-                   "check that regions reach vertices, and that tracks lead to another source"});
-  }
   if (count <= kEngineTargetLimit) return;
   report(observer, Problem{Severity::Warning,
                            "export.many-targets",
@@ -124,24 +126,29 @@ MorphWithMotion make_animated_output(const SolvedRecipe& solved, TargetKind targ
 StagedOutput stage_output(const SolvedRecipe& solved, std::size_t index, const BakeOptions& options,
                           const Observer& observer, PendingOutputs& outputs) {
   const Output& output = solved.recipe.outputs[index];
-  const auto [morph, motion] =
+  auto [morph, motion] =
       output.still ? make_still_output(solved, *output.still, options.solve)
                    : make_animated_output(solved, output.targets, options.basis, observer);
+  const int node = morph.node;
+  const auto added = static_cast<std::ptrdiff_t>(morph.target_names.size());
+  StagedOutput staged;
+  OutputReport& report = staged.report;
+  report.weight_keys = static_cast<int>(morph.key_times.size());
   warn_of_skin(solved, observer);
-  if (!output.still) warn_of_targets(solved.recipe, index, morph.target_names.size(), observer);
-  const MorphError error =
-      measure_mesh_morph(solved.first, solved.mesh, morph, solved.groups, motion);
+  if (!output.still && added == 0) warn_of_no_targets(solved.recipe, index, observer);
   const std::string bytes =
       write_morph_glb(solved.first.file, morph, fmt::format("morphbake {}", version()));
-  StagedOutput staged;
+  morph = {};  // all of it is in the bytes: what they say is measured
   staged.file = outputs.stage(output.file, bytes);
+  const AnimatedMesh written = read_written_mesh(bytes, output.file, node);
+  const std::vector<std::string>& names = written.target_names;
+  if (added > 0) warn_of_targets(solved.recipe, index, names.size(), observer);
+  const MorphError error = measure_mesh_morph(solved.mesh, written, solved.groups, motion);
 
   const double diagonal = bounding_diagonal(motion.positions_at(0));
-  OutputReport& report = staged.report;
   report.file = output.file;
   report.bytes = bytes.size();
-  report.targets = morph.target_names;
-  report.weight_keys = static_cast<int>(morph.key_times.size());
+  report.targets.assign(names.end() - added, names.end());
   report.max_error = diagonal > 0 ? error.distance / diagonal : 0;
   report.normals = {error.normal_angle, error.normal_angle_99, error.normal_time,
                     error.normal_vertex};

@@ -53,7 +53,7 @@ Positions evaluate(const Float3s& base, const std::vector<Float3s>& targets,
   Positions rows = base.cast<double>();
   for (std::size_t k = 0; k < targets.size(); ++k) {
     const double weight = weights(static_cast<Eigen::Index>(k));
-    if (weight != 0) rows += weight * targets[k].cast<double>();
+    if (weight != 0 && targets[k].rows() > 0) rows += weight * targets[k].cast<double>();
   }
   return rows;
 }
@@ -69,9 +69,8 @@ std::vector<double> frames_and_middles(const std::vector<double>& frame_times) {
 
 /// What is compared; the same at all moments.
 struct Comparison {
-  const SourceMesh& first;
   const MorphableMesh& mesh;
-  const MeshMorph& written;
+  const AnimatedMesh& written;
   const SmoothingGroups& groups;
 };
 
@@ -81,13 +80,13 @@ struct MomentError {
 };
 
 MomentError measure_moment(const Comparison& compared, const Positions& expected, double time) {
-  const MeshMorph& written = compared.written;
+  const AnimatedMesh& written = compared.written;
   const SmoothingGroups& groups = compared.groups;
-  const Eigen::Matrix4d& to_scene = compared.first.geometry.to_scene;
+  const Eigen::Matrix4d& to_scene = written.to_scene;
   const Eigen::Matrix3d linear = to_scene.topLeftCorner<3, 3>();
   const Eigen::RowVector3d translation = to_scene.topRightCorner<3, 1>().transpose();
   const Eigen::Matrix3d inverse = linear.inverse();
-  const Eigen::VectorXd w = interpolate_keys(written.key_times, written.key_weights, time);
+  const Eigen::VectorXd w = weights_at(written, time);
   Normals expected_normals;
   if (groups.count > 0) expected_normals = deformed_normals(groups, compared.mesh, expected);
   MomentError moment;
@@ -100,9 +99,10 @@ MomentError measure_moment(const Comparison& compared, const Positions& expected
     error.normal_vertex = static_cast<int>(render);
   };
   std::size_t render = 0;
-  for (const PrimitiveMorph& primitive : written.primitives) {
+  for (const AnimatedPrimitive& primitive : written.primitives) {
     const Positions positions = evaluate(primitive.positions, primitive.target_positions, w);
-    const Positions normals = evaluate(primitive.normals, primitive.target_normals, w);
+    Positions normals;
+    if (groups.count > 0) normals = evaluate(primitive.normals, primitive.target_normals, w);
     for (Eigen::Index r = 0; r < positions.rows(); ++r, ++render) {
       const int vertex = compared.mesh.vertex_of_render[render];
       if (vertex < 0) continue;
@@ -118,10 +118,9 @@ MomentError measure_moment(const Comparison& compared, const Positions& expected
 
 }  // namespace
 
-MorphError measure_mesh_morph(const SourceMesh& first, const MorphableMesh& mesh,
-                              const MeshMorph& written, const SmoothingGroups& groups,
-                              const ReferenceMotion& motion) {
-  const Comparison compared{first, mesh, written, groups};
+MorphError measure_mesh_morph(const MorphableMesh& mesh, const AnimatedMesh& written,
+                              const SmoothingGroups& groups, const ReferenceMotion& motion) {
+  const Comparison compared{mesh, written, groups};
   const std::vector<double> times = frames_and_middles(motion.frame_times);
   MorphError worst;
   AngleHistogram angles;

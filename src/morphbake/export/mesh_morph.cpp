@@ -89,10 +89,12 @@ void add_rest(const SourceMesh& first, const MorphableMesh& mesh, const Smoothin
     const Eigen::Index count = source.positions.rows();
     PrimitiveMorph& primitive = morph.primitives.emplace_back();
     primitive.positions = source.positions;
+    primitive.is_used.resize(static_cast<std::size_t>(count), false);
     if (groups.count > 0) primitive.normals = source.normals;
     for (Eigen::Index r = 0; r < count; ++r) {
       const auto render = static_cast<std::size_t>(begin + r);
       const int vertex = mesh.vertex_of_render[render];
+      primitive.is_used[static_cast<std::size_t>(r)] = vertex >= 0;
       if (vertex < 0 || is_source) continue;
       primitive.positions.row(r) =
           (source.positions.row(r).cast<double>() + moved.row(vertex)).cast<float>();

@@ -48,8 +48,8 @@ struct MorphError {
   int normal_vertex = 0;       ///< vertex of the first source's file where it is
 };
 
-MorphError measure_mesh_morph(const SourceMesh& first, const MorphableMesh& mesh,
-                              const MeshMorph& written, const SmoothingGroups& groups,
-                              const ReferenceMotion& motion);
+/// @param written  as the bytes that were written read: its vertices are those of the first source
+MorphError measure_mesh_morph(const MorphableMesh& mesh, const AnimatedMesh& written,
+                              const SmoothingGroups& groups, const ReferenceMotion& motion);
 
 }  // namespace morphbake

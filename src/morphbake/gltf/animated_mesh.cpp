@@ -163,16 +163,7 @@ AnimationCurve read_weights(const GltfDocument& document, int node, const Eigen:
   return curve;
 }
 
-}  // namespace
-
-AnimatedMesh read_animated_mesh(const std::filesystem::path& file, const MeshChoice& choice) {
-  return read_animated_mesh(open_gltf(file), choice);
-}
-
-AnimatedMesh read_animated_mesh(const GltfFile& file, const MeshChoice& choice) {
-  const GltfDocument& document = *file;
-  const MeshNode at = choose_mesh_node(document, choice, Ambiguity::TakeFirst);
-  check_mesh_size(document, at.mesh);
+AnimatedMesh read_mesh(const GltfDocument& document, const MeshNode& at) {
   const tinygltf::Mesh& source = document.model.meshes[static_cast<std::size_t>(at.mesh)];
   const std::size_t targets = target_count(document, at.mesh);
   AnimatedMesh mesh;
@@ -190,6 +181,24 @@ AnimatedMesh read_animated_mesh(const GltfFile& file, const MeshChoice& choice) 
   const tinygltf::Node& node = document.model.nodes[static_cast<std::size_t>(at.node)];
   mesh.weights = read_weights(document, at.node, rest_weights(node, source, targets));
   return mesh;
+}
+
+}  // namespace
+
+AnimatedMesh read_animated_mesh(const std::filesystem::path& file, const MeshChoice& choice) {
+  return read_animated_mesh(open_gltf(file), choice);
+}
+
+AnimatedMesh read_animated_mesh(const GltfFile& file, const MeshChoice& choice) {
+  const MeshNode at = choose_mesh_node(*file, choice, Ambiguity::TakeFirst);
+  check_mesh_size(*file, at.mesh);
+  return read_mesh(*file, at);
+}
+
+AnimatedMesh read_written_mesh(const std::string& glb, const std::filesystem::path& name,
+                               int node) {
+  const GltfFile file = open_gltf_bytes(glb, name);
+  return read_mesh(*file, choose_mesh_node(*file, {.node = node}, Ambiguity::TakeFirst));
 }
 
 Eigen::VectorXd interpolate_keys(const std::vector<float>& times, const Eigen::MatrixXf& weights,

@@ -60,6 +60,12 @@ struct AnimatedMesh {
 AnimatedMesh read_animated_mesh(const std::filesystem::path& file, const MeshChoice& choice = {});
 AnimatedMesh read_animated_mesh(const GltfFile& file, const MeshChoice& choice = {});
 
+/// Reads back what write_morph_glb() wrote, as read_animated_mesh() does. Its size is that of what
+/// was asked for: the limits for files of others do not hold.
+///
+/// @param name  what messages call it
+AnimatedMesh read_written_mesh(const std::string& glb, const std::filesystem::path& name, int node);
+
 /// Weights at `time`: linear between keys, constant before the first and after the last.
 ///
 /// @param times    seconds, rising; without any the first row stands

@@ -69,8 +69,7 @@ void check_required_extensions(const GltfDocument& document) {
   if (required == document.json.end() || !required->is_array()) return;
   for (std::size_t i = 0; i < required->size(); ++i) {
     const std::string name = (*required)[i].is_string() ? (*required)[i].get<std::string>() : "";
-    const auto known = std::find(kReadableExtensions.begin(), kReadableExtensions.end(), name);
-    if (known != kReadableExtensions.end()) continue;
+    if (is_known_extension(name)) continue;
     fail_at(document, array_pointer("extensionsRequired", i), "gltf.unsupported-extension",
             fmt::format("the file requires the extension \"{}\", which is not supported", name),
             "export it without that extension");
@@ -158,6 +157,11 @@ void check_uris(const GltfDocument& document, const char* array) {
 }
 
 }  // namespace
+
+bool is_known_extension(std::string_view name) {
+  return std::find(kReadableExtensions.begin(), kReadableExtensions.end(), name) !=
+         kReadableExtensions.end();
+}
 
 void check_document(const GltfDocument& document, std::size_t file_bytes) {
   check_version(document);

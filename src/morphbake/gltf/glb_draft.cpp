@@ -13,15 +13,33 @@ namespace {
 
 constexpr int kArrayBuffer = 34962;
 constexpr int kElementArrayBuffer = 34963;
+constexpr std::size_t kMostBytes = std::numeric_limits<std::uint32_t>::max();
 
 void append_u32(std::string& bytes, std::size_t value) {
   const auto number = static_cast<std::uint32_t>(value);
   bytes.append(reinterpret_cast<const char*>(&number), sizeof number);
 }
 
-}  // namespace
+void check_size(const GlbDraft& draft, std::size_t bytes) {
+  if (bytes <= kMostBytes) return;
+  throw BakeError(
+      Problem{Severity::Error,
+              "output.too-large",
+              {draft.shown.string(), "", 0, 0},
+              fmt::format("the result would have {} bytes or more; a .glb holds 4 GiB", bytes),
+              "use \"targets\": \"tracks\" or fewer frames"});
+}
 
-namespace {
+/// Puts a part where one is left over, or at the end; returns its index.
+int place(Json part, Json& list, std::set<int>& left_over) {
+  if (left_over.empty()) {
+    list.push_back(std::move(part));
+    return static_cast<int>(list.size()) - 1;
+  }
+  const int index = left_over.extract(left_over.begin()).value();
+  list[static_cast<std::size_t>(index)] = std::move(part);
+  return index;
+}
 
 /// A list of the JSON's root, taken out of it.
 Json taken_list(Json& json, const char* name) {
@@ -54,33 +72,39 @@ GlbDraft join_buffers(Json json, const std::vector<std::string_view>& buffers) {
   draft.json = std::move(json);
   draft.views = taken_list(draft.json, "bufferViews");
   draft.accessors = taken_list(draft.json, "accessors");
-  std::vector<std::size_t> begins;
   for (const std::string_view buffer : buffers) {
     draft.align();
-    begins.push_back(draft.binary.size());
+    draft.buffer_begins.push_back(draft.binary.size());
     draft.binary.append(buffer);
   }
   for (Json& view : draft.views) {
-    const std::size_t begin = begins.at(view.at("buffer").get<std::size_t>());
+    const std::size_t begin = draft.buffer_begins.at(view.at("buffer").get<std::size_t>());
     view["buffer"] = 0;
     if (begin > 0) view["byteOffset"] = begin + view.value("byteOffset", std::size_t{0});
   }
   return draft;
 }
 
-int append_view(GlbDraft& draft, const void* data, std::size_t byte_count, BufferUse use) {
+Json append_bytes(GlbDraft& draft, const void* data, std::size_t byte_count, BufferUse use) {
   draft.align();
+  check_size(draft, draft.binary.size() + byte_count);
   Json view = {{"buffer", 0}, {"byteOffset", draft.binary.size()}, {"byteLength", byte_count}};
   if (use == BufferUse::Vertices) view["target"] = kArrayBuffer;
   if (use == BufferUse::Indices) view["target"] = kElementArrayBuffer;
   draft.binary.append(static_cast<const char*>(data), byte_count);
-  draft.views.push_back(std::move(view));
-  return static_cast<int>(draft.views.size()) - 1;
+  return view;
+}
+
+int add_view(GlbDraft& draft, Json view) {
+  return place(std::move(view), draft.views, draft.leftovers.views);
+}
+
+int append_view(GlbDraft& draft, const void* data, std::size_t byte_count, BufferUse use) {
+  return add_view(draft, append_bytes(draft, data, byte_count, use));
 }
 
 int append_accessor(GlbDraft& draft, Json accessor) {
-  draft.accessors.push_back(std::move(accessor));
-  return static_cast<int>(draft.accessors.size()) - 1;
+  return place(std::move(accessor), draft.accessors, draft.leftovers.accessors);
 }
 
 int append_vectors(GlbDraft& draft, const Float3s& rows) {
@@ -95,7 +119,7 @@ int append_vectors(GlbDraft& draft, const Float3s& rows) {
                                  {"max", column_maxima(rows)}});
 }
 
-std::string glb_bytes(GlbDraft& draft, const std::filesystem::path& shown) {
+std::string glb_bytes(GlbDraft& draft) {
   draft.align();
   if (draft.binary.empty()) {
     draft.json.erase("buffers");
@@ -108,14 +132,7 @@ std::string glb_bytes(GlbDraft& draft, const std::filesystem::path& shown) {
   text.resize((text.size() + 3) / 4 * 4, ' ');
   const std::size_t chunk = draft.binary.empty() ? 0 : 8 + draft.binary.size();
   const std::size_t total = 12 + 8 + text.size() + chunk;
-  if (total > std::numeric_limits<std::uint32_t>::max()) {
-    throw BakeError(
-        Problem{Severity::Error,
-                "output.too-large",
-                {shown.string(), "", 0, 0},
-                fmt::format("the result would have {} bytes; a .glb holds 4 GiB", total),
-                "use \"targets\": \"tracks\" or fewer frames"});
-  }
+  check_size(draft, total);
   std::string bytes = "glTF";
   bytes.reserve(total);
   append_u32(bytes, 2);

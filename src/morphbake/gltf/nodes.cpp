@@ -151,7 +151,7 @@ std::vector<int> with_chosen_mesh(const GltfDocument& document, const MeshChoice
 
 void check_transform(const GltfDocument& document, const MeshNode& at) {
   const double determinant = at.to_scene.topLeftCorner<3, 3>().determinant();
-  if (std::abs(determinant) > 1e-30) return;
+  if (std::abs(determinant) > kFlattened) return;
   fail_at(document, fmt::format("/nodes/{}", at.node), "gltf.singular-transform",
           "the node's transform flattens the mesh (determinant 0)",
           "apply the transform and export again");

@@ -10,6 +10,9 @@
 
 namespace morphbake {
 
+/// A transform whose determinant is not larger flattens what it moves.
+constexpr double kFlattened = 1e-30;
+
 struct MeshNode {
   int node = 0;
   int mesh = 0;

@@ -3,19 +3,10 @@
 // Internal to gltf/: new numbers in place of old ones, without harm to whoever else uses those.
 
 #include <cstddef>
-#include <vector>
 
-#include "morphbake/gltf/glb_draft.h"
+#include "morphbake/gltf/draft_references.h"
 
 namespace morphbake {
-
-/// How often a draft refers to each of its parts.
-struct References {
-  std::vector<int> accessors;  ///< by attributes, targets, indices, samplers and skins
-  std::vector<int> views;      ///< by whatever has a field "bufferView"
-};
-
-References references_in(const GlbDraft& draft);
 
 /// An accessor, and how many of the references to it are to have the new numbers.
 struct Replaced {
@@ -31,11 +22,11 @@ struct NewNumbers {
   BufferUse use = BufferUse::Vertices;
 };
 
-/// Appends numbers and returns their accessor: the same as before, with its name and extras, unless
-/// others refer to it too. No bufferView is left over.
+/// Adds numbers and returns their accessor: the same as before, with its name and extras, unless
+/// others refer to it too.
 ///
-/// @param before  references_in(draft) before anything was added
-int replace_accessor(GlbDraft& draft, const References& before, const Replaced& old,
+/// @param references  of the draft; they become those after this
+int replace_accessor(GlbDraft& draft, References& references, const Replaced& old,
                      const NewNumbers& numbers);
 
 }  // namespace morphbake

@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include <Eigen/LU>
+#include <cmath>
 
 #include "morphbake/gltf/moment.h"
 #include "morphbake/gltf/names.h"
@@ -64,7 +65,24 @@ void add_targets(const GltfDocument& document, const tinygltf::Primitive& primit
   }
 }
 
-/// Poses the mesh by its skeleton at a moment, in the space of the mesh as it was bound.
+/// Brings the mesh into a space that `to_scene` takes to the scene.
+void change_space(const Eigen::Matrix4d& to_scene, SourceGeometry& source) {
+  const Eigen::Matrix4d change = to_scene.inverse() * source.to_scene;
+  const Eigen::Matrix3d linear = change.topLeftCorner<3, 3>();
+  const Eigen::RowVector3d translation = change.topRightCorner<3, 1>().transpose();
+  const Eigen::Matrix3d of_normals = linear.inverse();
+  for (PrimitiveGeometry& primitive : source.primitives) {
+    const Positions moved =
+        (primitive.positions.cast<double>() * linear.transpose()).rowwise() + translation;
+    primitive.positions = moved.cast<float>();
+    const Positions turned = primitive.normals.cast<double>() * of_normals;
+    primitive.normals = turned.rowwise().normalized().cast<float>();
+  }
+  source.to_scene = to_scene;
+}
+
+/// Poses the mesh by its skeleton at a moment. Posed, it no longer hangs on the skeleton: it is in
+/// the space of its node, unless that is flat.
 void pose_mesh(const GltfDocument& document, const Moment& moment, SourceGeometry& source) {
   const NodeOrder order = order_nodes(document, transforms_at(document, moment));
   std::vector<Eigen::Matrix4d> joints =
@@ -78,6 +96,10 @@ void pose_mesh(const GltfDocument& document, const Moment& moment, SourceGeometr
     pose(binding, joints, source.primitives[p].positions, source.primitives[p].normals);
   }
   source.is_posed = true;
+  const NodeOrder at_rest = order_nodes(document, rest_transforms(document));
+  const Eigen::Matrix4d& of_node = at_rest.to_scene[static_cast<std::size_t>(source.node)];
+  const double determinant = of_node.topLeftCorner<3, 3>().determinant();
+  if (std::abs(determinant) > kFlattened) change_space(of_node, source);
 }
 
 void check_finite(const GltfDocument& document, const SourceGeometry& source) {

@@ -31,7 +31,7 @@ struct SourceGeometry {
 ///
 /// Its shape is that of a target or of a moment of an animation where one is chosen, else what the
 /// file shows at rest. A skinned mesh is as it was bound, but for a moment: then its skeleton poses
-/// it.
+/// it, and it is told in the space of its node, which is where it stands without a skin.
 /// @throws BakeError "gltf.no-mesh", "gltf.several-meshes", "gltf.no-such-node", ...,
 /// "gltf.invalid",
 ///         "gltf.unsupported-primitive", "gltf.singular-transform", "gltf.mixed-normals",

@@ -7,7 +7,7 @@
 #include <set>
 #include <utility>
 
-#include "morphbake/gltf/glb_draft.h"
+#include "morphbake/gltf/draft_references.h"
 #include "morphbake/gltf/packed_parts.h"
 
 namespace morphbake {
@@ -44,7 +44,19 @@ struct Unpacking {
   const std::vector<std::string>& buffers;
   GlbDraft draft;
   UnpackBudget budget;
+  References references;
 };
+
+/// Bytes of a buffer that are not needed any more; nothing for a buffer that only stands in.
+void leave_bytes(Unpacking& at, const Json& range) {
+  if (!at.references.are_all) return;
+  const auto buffer = range.at("buffer").get<std::size_t>();
+  const std::size_t size = at.buffers[buffer].size();
+  const std::size_t begin = std::min(range.value("byteOffset", std::size_t{0}), size);
+  const std::size_t end = begin + std::min(range.at("byteLength").get<std::size_t>(), size - begin);
+  const std::size_t first = at.draft.buffer_begins[buffer];
+  at.draft.leftovers.bytes.push_back({first + begin, first + end});
+}
 
 /// Bytes of a buffer that are compressed.
 std::string_view packed_bytes(const Unpacking& at, const Json& range, const std::string& pointer) {
@@ -82,6 +94,8 @@ void unpack_views(Unpacking& at) {
               fmt::format("unpacked, the bufferView has {} bytes, not {}", bytes.size(),
                           view.at("byteLength").dump()));
     }
+    leave_bytes(at, *extension);
+    leave_bytes(at, at.document.json["bufferViews"][v]);
     place_bytes(at.draft, bytes, view);
     erase_extension(view, kMeshopt);
   }
@@ -137,7 +151,9 @@ void give_rows(Unpacking& at, const std::string& rows, Json& accessor) {
   const auto count = accessor.at("count").get<std::size_t>();
   std::size_t stride = 0;
   const std::string padded = padded_rows(rows, count, stride);
-  const int view = append_view(at.draft, padded.data(), padded.size(), BufferUse::Vertices);
+  const int view =
+      replace_view(at.draft, at.references, release_views(at.draft, at.references, accessor),
+                   append_bytes(at.draft, padded.data(), padded.size(), BufferUse::Vertices));
   if (padded.size() != rows.size()) {
     at.draft.views[static_cast<std::size_t>(view)]["byteStride"] = stride;
   }
@@ -159,10 +175,12 @@ void give_indices(Unpacking& at, const std::vector<std::uint32_t>& indices, std:
   for (std::size_t i = 0; i < indices.size(); ++i) {
     std::memcpy(bytes.data() + i * width, &indices[i], width);
   }
+  release_views(at.draft, at.references, accessor);
   place_bytes(at.draft, bytes, at.draft.views[view]);
   at.draft.views[view]["target"] = 34963;  // ELEMENT_ARRAY_BUFFER
   accessor["bufferView"] = view;
   accessor.erase("byteOffset");
+  accessor.erase("sparse");
   for (const char* bound : {"min", "max"}) accessor.erase(bound);  // of indices none are needed
 }
 
@@ -195,6 +213,7 @@ void unpack_primitive(Unpacking& at, Json& primitive, const std::string& owner,
   const UnpackedPrimitive unpacked =
       unpack_draco(at.document, packed_bytes(at, (*views)[view], pointer),
                    indices.at("count").get<std::size_t>(), asked, at.budget, pointer);
+  leave_bytes(at, (*views)[view]);
   for (std::size_t a = 0; a < accessors.size(); ++a) {
     give_rows(at, unpacked.attributes[a], at.draft.accessors[accessors[a]]);
   }
@@ -244,15 +263,21 @@ bool is_packed(const Json& json) {
 std::string unpacked_glb(const GltfDocument& document, const std::vector<std::string>& buffers) {
   std::size_t bytes = 0;
   for (const std::string& buffer : buffers) bytes += buffer.size();
-  Unpacking at{document, buffers, join_buffers(document.json, {buffers.begin(), buffers.end()}),
-               UnpackBudget::of_file(bytes)};
+  Unpacking at{document,
+               buffers,
+               join_buffers(document.json, {buffers.begin(), buffers.end()}),
+               UnpackBudget::of_file(bytes),
+               {}};
+  at.references = references_in(at.draft);
   unpack_views(at);
   std::set<std::size_t> reused;
   for_each_primitive(at.draft.json, [&](Json& primitive, const std::string& pointer) {
     unpack_primitive(at, primitive, pointer, reused);
   });
   erase_marks(at.draft.json);
-  return glb_bytes(at.draft, document.file);
+  remove_leftovers(at.draft);
+  at.draft.shown = document.file;
+  return glb_bytes(at.draft);
 }
 
 }  // namespace morphbake

@@ -48,6 +48,7 @@ Json json_of(const PlainMaterial& material) {
 
 std::string write_mesh_glb(const PlainMesh& mesh, const std::string& generator) {
   GlbDraft draft;
+  draft.shown = mesh.name;
   Json asset = {{"version", "2.0"}, {"generator", generator}};
   if (!mesh.copyright.empty()) asset["copyright"] = mesh.copyright;
   Json attributes = {{"POSITION", append_vectors(draft, mesh.positions)},
@@ -63,7 +64,7 @@ std::string write_mesh_glb(const PlainMesh& mesh, const std::string& generator) 
   draft.json["meshes"] =
       Json::array({{{"name", mesh.name}, {"primitives", Json::array({std::move(primitive)})}}});
   if (mesh.material) draft.json["materials"] = Json::array({json_of(*mesh.material)});
-  return glb_bytes(draft, mesh.name);
+  return glb_bytes(draft);
 }
 
 std::optional<PlainMaterial> first_material(const GltfFile& file, int mesh) {

@@ -14,6 +14,9 @@ struct PrimitiveMorph {
   Float3s normals;                        ///< #V by 3, or no rows when the file has none
   std::vector<Float3s> target_positions;  ///< one a target: #V by 3 displacement
   std::vector<Float3s> target_normals;    ///< one a target, or empty: #V by 3 displacement
+  /// One a vertex: whether it is part of the surface. Empty: all are. Primitives may share their
+  /// vertices, of which each has its own.
+  std::vector<bool> is_used = {};
 };
 
 /// What is added to a mesh: targets and one animation of their weights.
@@ -21,9 +24,9 @@ struct MeshMorph {
   int node = 0;
   int mesh = 0;
   bool replaces_base = false;              ///< whether the base shape is another than the file's
-  bool drops_skin = false;                 ///< the base shape is posed already
+  bool drops_skin = false;                 ///< the base shape is posed, in the node's own space
   std::vector<PrimitiveMorph> primitives;  ///< one a primitive of the mesh
-  std::vector<std::string> target_names;   ///< unique, non-empty
+  std::vector<std::string> target_names;   ///< unique, non-empty; as wished
   std::string animation_name;
   std::vector<float> key_times;  ///< seconds, rising strictly, the first is 0; empty: no animation
   Eigen::MatrixXf key_weights;   ///< #keys by #targets, in [0, 1]
@@ -31,11 +34,13 @@ struct MeshMorph {
 
 /// The bytes of a .glb: everything of `source`, and the morph.
 ///
-/// Targets and animation are appended. The mesh's own targets and all animations of their weights
-/// stay; where new targets are, those get the weights of the first key. A new base shape takes the
-/// place of the old one as floats. Buffers become the binary chunk; images outside the file are
-/// taken into it.
-/// @throws BakeError "output.too-large"; those of reading for animations that cannot be
+/// Targets and animation are appended; a name that the file has already gets a number behind it.
+/// The mesh's own targets and all animations of their weights stay; where new targets are, those
+/// get the weights of the first key. A new base shape takes the place of the old one as floats.
+/// Buffers become the binary chunk, without the bytes of what was replaced; images outside the file
+/// are taken into it. Where the skin is dropped, the node gets a mesh of its own if others pose it.
+/// @throws BakeError "output.too-large", "gltf.singular-transform"; "gltf.too-large" and those of
+///         reading for animations that cannot be
 std::string write_morph_glb(const GltfFile& source, const MeshMorph& morph,
                             const std::string& generator);
 

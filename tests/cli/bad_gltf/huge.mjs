@@ -28,6 +28,17 @@ const primitives = (count) => (gltf) => {
   return JSON.stringify(gltf).replace('"@"', new Array(count).fill(JSON.stringify(primitive)).join());
 };
 
+/** `count` samplers of the mesh's weights with a channel each, which read `keys` keys; of one output, or of one each. */
+const samplers = (count, keys, ownOutputs = false) => (gltf) => {
+  gltf.meshes[0].primitives[0].targets = [{ POSITION: 0, NORMAL: 1 }];
+  const input = addAccessor(gltf, Float32Array.from({ length: keys }, (_, i) => i), 'SCALAR', FLOAT);
+  const output = addAccessor(gltf, new Float32Array(keys), 'SCALAR', FLOAT);
+  const list = Array.from({ length: count }, (_, i) => ({ input, output: ownOutputs ? output + i : output }));
+  for (let i = 1; ownOutputs && i < count; ++i) gltf.accessors.push(gltf.accessors[output]);
+  const channels = list.map((_, sampler) => ({ sampler, target: { node: 0, path: 'weights' } }));
+  gltf.animations = [{ samplers: list, channels }];
+};
+
 export const baked = {
   '10,000 primitives': [primitives(10000), '[connectivity.different-triangles]'],
   'one megabyte of positions, 10,000 primitives': [withZeros(BIG, (g) => {
@@ -43,6 +54,7 @@ export const baked = {
     g.meshes[0].primitives = [{ attributes: { POSITION: 3 }, indices: 2, targets: new Array(10000).fill({ POSITION: 3 }) }];
   }), LARGE],
   'one megabyte, 10,000 images': [withZeros(BIG, (g) => { g.images = new Array(10000).fill({ bufferView: 3, mimeType: 'image/png' }); }), LARGE],
+  'one megabyte, 1,000 curves of weights': [samplers(1000, 100000, true), '#/animations/0/samplers', LARGE],
   'one file, 10,000 buffers': [(g) => { g.buffers.push(...new Array(10000).fill({ byteLength: BIG, uri: 'megabyte.bin' })); }, LARGE],
 };
 
@@ -81,6 +93,9 @@ export const legal = {
     g.nodes = [{ mesh: 0, children: Array.from({ length: 1e5 }, (_, i) => i + 1) }, ...new Array(1e5).fill({})];
   }],
   '20,000 accessors of the same numbers': [(g) => { for (let i = 0; i < 20000; ++i) g.accessors.push(g.accessors[0]); }],
+  '20,000 samplers of weights': [samplers(20000, 2)],
+  '1,000 samplers of one long curve': [samplers(1000, 200000)],
+  '5,000 targets without normals': [(g) => { g.meshes[0].primitives[0].targets = new Array(5000).fill({ POSITION: 0 }); }],
   'a 64 MB binary chunk': [withZeros(64e6, () => {})],
   '64 MB of spaces in the JSON': [(g) => Buffer.concat([Buffer.from(`${JSON.stringify(g).slice(0, -1)}`), Buffer.alloc(64e6, ' '), Buffer.from('}')])],
   'a name of 10 MB': [(g) => { g.nodes[0].name = 'n'.repeat(1e7); }],

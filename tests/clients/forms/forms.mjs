@@ -191,6 +191,25 @@ const sharedVertices = oneMesh((document, which) => {
   return [corners.slice(0, half), corners.slice(half)].map((list) => ({ attributes, indices: gltf.putIndices(document, list) }));
 });
 
+/** The same with a target, so that what a primitive does not use has other positions in it; 'a' rests part of the way. */
+async function sharedVerticesWithTargets(which) {
+  const document = await sharedVertices(which);
+  const [mesh] = document.json.meshes;
+  const { points } = ring(which);
+  const moved = gltf.putPoints(document, points.map(([x, y, z]) => [0.31 * y, 0.17 * z, -0.23 * x].map(Math.fround)));
+  for (const primitive of mesh.primitives) primitive.targets = [{ POSITION: moved }];
+  Object.assign(mesh, { weights: [0.3], extras: { targetNames: ['own'] } });
+  return document;
+}
+
+/** Two primitives of one list of positions, which targets of their own move elsewhere. */
+async function sharedVerticesApart(which) {
+  const document = await sharedVerticesWithTargets(which);
+  const [{ primitives }] = document.json.meshes;
+  primitives[1].targets = [{ POSITION: gltf.putPoints(document, ring(which).points.map(([x]) => [0, Math.fround(x), 0])) }];
+  return document;
+}
+
 /** A stand of another mesh and material beside the subject. */
 async function severalMeshes(which) {
   const document = gltf.startDocument([{ name: 'stand', mesh: 0, translation: [0, -2, 0], children: [1] },
@@ -246,6 +265,15 @@ function skinned({ componentType, jointType, sum }) {
   };
 }
 
+/** A skin whose node is large and elsewhere, which matters only without it; `twin` has the same mesh and skin. */
+const displaced = (hasTwin) => async (which) => {
+  const document = await skin(which);
+  const { nodes, scenes } = document.json;
+  Object.assign(nodes[0], { translation: [10, -20, 30], rotation: TURN, scale: [100, 100, 50] });
+  if (hasTwin) scenes[0].nodes.push(nodes.push({ name: 'twin', mesh: 0, skin: 0 }) - 1);
+  return document;
+};
+
 const skin = skinned({ componentType: gltf.UNSIGNED_SHORT, jointType: gltf.UNSIGNED_BYTE, sum: 65535 });
 
 /** Targets 'wide' and 'tall'; with `normals` they move normals too. */
@@ -299,6 +327,37 @@ async function sharedSampler(which) {
     gltf.putMesh(document, [putTargets(document, ringPrimitive(document, shape), shape)], { weights: [0, 0] });
   animate(document, 'both', 1, 'weights', [0, 0.5, 2], LINEAR_WEIGHTS);
   document.json.animations[0].channels.push({ sampler: 0, target: { node: 0, path: 'weights' } });
+  return document;
+}
+
+/** Two clips of their own times that read the same weights. */
+async function sharedOutput(which) {
+  const document = await animatedTargets('LINEAR', LINEAR_WEIGHTS)(which);
+  const { animations } = document.json;
+  const [{ output }] = animations[0].samplers;
+  animations.push({ name: 'slow', channels: structuredClone(animations[0].channels),
+    samplers: [{ input: gltf.putTimes(document, [0, 1, 4]), output }] });
+  animations.push({ ...structuredClone(animations[0]), name: 'again' });
+  return document;
+}
+
+/** Weights that KHR_animation_pointer moves: those of the node, and those of the mesh. */
+async function pointedWeights(which) {
+  const document = await animatedTargets('LINEAR', LINEAR_WEIGHTS)(which);
+  const { json } = document;
+  const pointTo = (pointer) => ({ path: 'pointer', extensions: { KHR_animation_pointer: { pointer } } });
+  json.animations[0].channels[0].target = pointTo('/nodes/0/weights');
+  animate(document, 'mesh', 0, 'weights', [0, 0.5, 2], CUBIC_WEIGHTS, 'CUBICSPLINE');
+  json.animations.at(-1).channels[0].target = pointTo('/meshes/0/weights');
+  json.extensionsUsed = ['KHR_animation_pointer'];
+  return document;
+}
+
+/** Targets and a clip that are called as the new ones will be. */
+async function takenNames(which) {
+  const document = await animatedTargets('LINEAR', LINEAR_WEIGHTS)(which);
+  document.json.meshes[0].extras.targetNames = ['b', 'b-2'];
+  document.json.animations[0].name = 'taken-names';
   return document;
 }
 
@@ -405,6 +464,15 @@ async function dracoBesidePlain(which) {
   return document;
 }
 
+/** Draco that readers may leave alone: the plain numbers are there too. */
+async function dracoOptional(which) {
+  const document = gltf.startDocument([{ ...SUBJECT }]);
+  const primitive = await putDraco(document, ring(which), { withPlain: true });
+  gltf.putMesh(document, [primitive]);
+  delete document.json.extensionsRequired;
+  return document;
+}
+
 const single = (make) => async (which) => {
   const document = await make(which);
   return { main: `${which}.glb`, files: { [`${which}.glb`]: gltf.toGlb(document, document.others) } };
@@ -465,7 +533,8 @@ const mixed = (a, b) => (which) => (which === 'a' ? a : b)(which);
 
 /**
  * name: make(which) -> {main, files: {name: bytes}}; and what a recipe's source says beside the file:
- * `select` for both shapes, `a` or `b` for one; `moment` of that source as reference/scene.mjs wants it.
+ * `select` for both shapes, `a` or `b` for one; `moments` of the sources as reference/scene.mjs wants them; `start` is the
+ * shape at 0 s when that is not 'a', which is always the source that is kept; `dropsSkin`: its subject is posed.
  */
 export const FORMS = {
   'indices-u8': { make: single(indexed(gltf.UNSIGNED_BYTE)) },
@@ -492,6 +561,11 @@ export const FORMS = {
   'texture-transform': { make: single(textureTransform) },
   'primitives': { make: single(pieces) },
   'shared-vertices': { make: single(sharedVertices) },
+  'shared-vertices-apart': { make: single(sharedVerticesApart), start: 'b' },
+  'shared-vertices-resting': { make: single(sharedVerticesWithTargets), start: 'b' },
+  'shared-vertices-target': { make: single(sharedVerticesWithTargets), a: { target: 'own' },
+    moments: { a: { weights: [1] } } },
+  'sparse-from-b': { make: single(sparse(false)), start: 'b' },
   'several-by-node': { make: single(severalMeshes), select: { node: 'subject' } },
   'several-by-mesh': { make: single(severalMeshes), select: { mesh: 'ring' } },
   'several-by-index': { make: single(severalMeshes), select: { node: 1 } },
@@ -503,6 +577,9 @@ export const FORMS = {
   'targets-cubic': { make: single(animatedTargets('CUBICSPLINE', CUBIC_WEIGHTS, { weights: [0, 0] })) },
   'targets-instanced': { make: single(instancedTargets), select: { node: 'subject' } },
   'targets-shared-sampler': { make: single(sharedSampler), select: { node: 'subject' } },
+  'targets-shared-output': { make: single(sharedOutput) },
+  'targets-pointer': { make: single(pointedWeights) },
+  'taken-names': { make: single(takenNames) },
   'targets-resting': { make: single(restingTargets) },
   'targets-primitives': { make: single(targetsOfPieces) },
   'targets-zeros': { make: single(stillTargets) },
@@ -514,6 +591,10 @@ export const FORMS = {
     moments: { a: { animation: 0, time: 0.2 }, b: { animation: 0, time: 1.3 } } },
   'to-pose': { make: mixed(single(plainRing()), single(skin)), b: { animation: { name: 0, time: 0.6 } },
     moments: { a: REST, b: { animation: 0, time: 0.6 } } },
+  'from-pose': { make: single(displaced(false)), a: { animation: { name: 'nod', time: 0.6 } }, dropsSkin: true,
+    moments: { a: { animation: 0, time: 0.6 }, b: REST } },
+  'from-pose-with-twin': { make: single(displaced(true)), select: { node: 'subject' },
+    a: { animation: { name: 'nod', time: 0.6 } }, dropsSkin: true, moments: { a: { animation: 0, time: 0.6 } } },
   'unknown': { make: single(unknown) },
   'cameras-lights': { make: single(camerasAndLights) },
   'split-otherwise': { make: single(splitOtherwise) },
@@ -521,6 +602,7 @@ export const FORMS = {
   'meshopt-optional': { make: single(meshoptOptional) },
   'draco': { make: single(draco('MESH_EDGEBREAKER_ENCODING')) },
   'draco-sequential': { make: single(draco('MESH_SEQUENTIAL_ENCODING')) },
+  'draco-optional': { make: single(dracoOptional) },
   'draco-beside-plain': { make: single(dracoBesidePlain) },
 };
 

@@ -28,8 +28,12 @@ export async function putMeshopt(document, rows, { componentType, stride, mode, 
   return gltf.describeAccessor(document, rows, componentType, { bufferView: at, ...fields.accessor }, fields.bounds);
 }
 
-/** A primitive packed by Draco; its accessors tell the bounds of what went in, as exporters do. */
-export async function putDraco(document, shape, { method = 'MESH_EDGEBREAKER_ENCODING' } = {}) {
+/**
+ * A primitive packed by Draco; its accessors tell the bounds of what went in, as exporters do.
+ *
+ * @param withPlain  whether the accessors have bytes besides, of the same number of vertices in any order
+ */
+export async function putDraco(document, shape, { method = 'MESH_EDGEBREAKER_ENCODING', withPlain = false } = {}) {
   const draco = await requireModule('draco3dgltf').createEncoderModule({});
   const [encoder, builder, mesh] = [new draco.Encoder(), new draco.MeshBuilder(), new draco.Mesh()];
   builder.AddFacesToMesh(mesh, shape.triangles.length, Uint32Array.from(shape.triangles.flat()));
@@ -48,9 +52,14 @@ export async function putDraco(document, shape, { method = 'MESH_EDGEBREAKER_ENC
   const length = encoder.EncodeMeshToDracoBuffer(mesh, out);
   const bytes = Uint8Array.from({ length }, (_, i) => out.GetValue(i));
   const count = encoder.GetNumberOfEncodedPoints();
+  const putPlain = (index, rows, componentType, target) => {
+    const stride = rows[0].length * (componentType === gltf.FLOAT ? 4 : 2);
+    document.json.accessors[index].bufferView = gltf.putView(document, gltf.packRows(rows, componentType, stride), { target });
+  };
   const describe = (rows, bounds) => {
     const index = gltf.describeAccessor(document, rows, gltf.FLOAT, {}, bounds);
     document.json.accessors[index].count = count;
+    if (withPlain) putPlain(index, Array.from({ length: count }, (_, i) => rows[i % rows.length]), gltf.FLOAT, gltf.VERTICES);
     return index;
   };
   const primitive = {
@@ -58,6 +67,8 @@ export async function putDraco(document, shape, { method = 'MESH_EDGEBREAKER_ENC
     indices: gltf.describeAccessor(document, shape.triangles.flat().map((i) => [i]), gltf.UNSIGNED_SHORT, {}),
     extensions: { [DRACO]: { bufferView: gltf.putView(document, bytes), attributes } },
   };
+  const corners = shape.triangles.flat().map((i) => [i]);
+  if (withPlain) putPlain(primitive.indices, corners, gltf.UNSIGNED_SHORT, gltf.INDICES);
   document.json.extensionsUsed = [DRACO];
   document.json.extensionsRequired = [DRACO];
   return primitive;

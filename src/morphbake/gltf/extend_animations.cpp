@@ -1,0 +1,196 @@
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <charconv>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <tuple>
+#include <utility>
+
+#include "morphbake/gltf/accessors.h"
+#include "morphbake/gltf/animation_curve.h"
+#include "morphbake/gltf/morph_writing.h"
+#include "morphbake/gltf/replace_accessor.h"
+
+namespace morphbake {
+namespace {
+
+/// Weights that a file may have in its animations however few bytes it has.
+constexpr std::size_t kFewestWeights = std::size_t{1} << 22;
+
+/// A sampler that moves the weights of the mesh.
+struct WeightSampler {
+  std::size_t animation = 0;
+  std::size_t sampler = 0;
+  std::vector<std::size_t> channels;  ///< those that move the weights
+  bool is_only_weights = false;       ///< and no other channel reads it
+};
+
+/// Samplers of one curve: what they read, and how.
+using Curve = std::tuple<int, int, std::string>;  // input, output, interpolation
+using Curves = std::map<Curve, std::vector<WeightSampler>>;
+
+Curve curve_of(const Json& sampler) {
+  return {sampler.at("input").get<int>(), sampler.at("output").get<int>(),
+          sampler.value("interpolation", "LINEAR")};
+}
+
+/// The number in "/nodes/3/weights" for `list` "nodes".
+std::optional<std::size_t> index_in(std::string_view pointer, const std::string& list) {
+  const std::string begin = "/" + list + "/";
+  constexpr std::string_view kEnd = "/weights";
+  if (!pointer.starts_with(begin) || !pointer.ends_with(kEnd)) return {};
+  if (pointer.size() <= begin.size() + kEnd.size()) return {};
+  const char* first = pointer.data() + begin.size();
+  const char* last = pointer.data() + pointer.size() - kEnd.size();
+  std::size_t index = 0;
+  const auto [end, error] = std::from_chars(first, last, index);
+  if (error != std::errc() || end != last) return {};
+  return index;
+}
+
+bool shows_mesh(const MorphWriting& writing, std::size_t node) {
+  const Json& nodes = writing.draft.json.at("nodes");
+  return node < nodes.size() && nodes[node].value("mesh", -1) == writing.mesh;
+}
+
+/// What a channel of KHR_animation_pointer moves; "" when it says nothing.
+std::string pointer_of(const Json& target) {
+  static const Json::json_pointer kPlace("/extensions/KHR_animation_pointer/pointer");
+  const bool is_told = target.contains(kPlace) && target.at(kPlace).is_string();
+  return is_told ? target.at(kPlace).get<std::string>() : std::string();
+}
+
+/// Whether a channel moves the weights of the morph's mesh.
+bool moves_weights(const MorphWriting& writing, const Json& channel) {
+  const Json& target = channel.at("target");
+  if (target.at("path") == "weights") {
+    return target.contains("node") && shows_mesh(writing, target["node"].get<std::size_t>());
+  }
+  if (target.at("path") != "pointer") return false;
+  const std::string pointer = pointer_of(target);
+  if (const auto node = index_in(pointer, "nodes")) return shows_mesh(writing, *node);
+  return index_in(pointer, "meshes") == static_cast<std::size_t>(writing.mesh);
+}
+
+void check_channel(const MorphWriting& writing, std::size_t animation, std::size_t sampler,
+                   std::size_t sampler_count) {
+  if (writing.own_targets == 0) {
+    fail_at(writing.document, fmt::format("/animations/{}", animation), "gltf.invalid",
+            "the animation moves weights of a mesh that has no morph targets",
+            "export the file again, or without that animation");
+  }
+  if (sampler >= sampler_count) {
+    fail_at(writing.document, fmt::format("/animations/{}/samplers/{}", animation, sampler),
+            "gltf.invalid", "the sampler does not exist");
+  }
+}
+
+/// The samplers of an animation that move the mesh's weights.
+std::vector<WeightSampler> weight_samplers(const MorphWriting& writing, std::size_t index) {
+  const Json& animation = writing.draft.json.at("animations")[index];
+  const Json &channels = animation.at("channels"), &samplers = animation.at("samplers");
+  std::map<std::size_t, std::size_t> readers;  // of a sampler: channels of any kind
+  std::map<std::size_t, WeightSampler> found;
+  for (std::size_t c = 0; c < channels.size(); ++c) {
+    const auto sampler = channels[c].at("sampler").get<std::size_t>();
+    ++readers[sampler];
+    if (!moves_weights(writing, channels[c])) continue;
+    check_channel(writing, index, sampler, samplers.size());
+    WeightSampler& at = found[sampler];
+    at.animation = index;
+    at.sampler = sampler;
+    at.channels.push_back(c);
+  }
+  std::vector<WeightSampler> list;
+  for (auto& [sampler, at] : found) {
+    at.is_only_weights = at.channels.size() == readers[sampler];
+    list.push_back(std::move(at));
+  }
+  return list;
+}
+
+Curves weight_curves(const MorphWriting& writing) {
+  Curves curves;
+  const auto animations = writing.draft.json.find("animations");
+  for (std::size_t a = 0; animations != writing.draft.json.end() && a < animations->size(); ++a) {
+    for (WeightSampler& sampler : weight_samplers(writing, a)) {
+      const Json& json = (*animations)[a].at("samplers")[sampler.sampler];
+      curves[curve_of(json)].push_back(std::move(sampler));
+    }
+  }
+  return curves;
+}
+
+/// Curves that show the same bytes again and again would each become one of their own.
+void check_size(const MorphWriting& writing, const Curves& curves) {
+  const GltfDocument& document = writing.document;
+  std::size_t bytes = 0, weights = 0;
+  for (const tinygltf::Buffer& buffer : document.model.buffers) bytes += buffer.data.size();
+  const std::size_t limit = std::max(bytes, kFewestWeights);
+  for (const auto& [curve, samplers] : curves) {
+    const WeightSampler& first = samplers.front();
+    const std::string pointer =
+        fmt::format("/animations/{}/samplers/{}", first.animation, first.sampler);
+    weights += accessor_count(document, std::get<1>(curve), pointer + "/output");
+    if (weights <= limit) continue;  // counts are below 2^32 each: the sum cannot overflow
+    fail_at(document, pointer, "gltf.too-large",
+            fmt::format("animations of the mesh's weights have more than {} numbers, out of {} "
+                        "bytes",
+                        limit, bytes),
+            "animations that share one long accessor need to share their times as well");
+  }
+}
+
+/// The numbers of a weights curve with the new targets' after those of each key.
+std::vector<float> extended(const AnimationCurve& curve, const std::vector<float>& added) {
+  std::vector<float> numbers;
+  const auto append = [&](const Eigen::MatrixXf& rows, Eigen::Index key, bool is_value) {
+    for (Eigen::Index t = 0; t < rows.cols(); ++t) numbers.push_back(rows(key, t));
+    for (const float weight : added) numbers.push_back(is_value ? weight : 0.0F);
+  };
+  const bool is_cubic = curve.interpolation == Interpolation::CubicSpline;
+  for (Eigen::Index key = 0; key < curve.values.rows(); ++key) {
+    if (is_cubic) append(curve.in_tangents, key, false);
+    append(curve.values, key, true);
+    if (is_cubic) append(curve.out_tangents, key, false);
+  }
+  return numbers;
+}
+
+/// Lets the channels of weights read another output, and all others what they read before.
+void set_output(MorphWriting& writing, const WeightSampler& at, int output) {
+  Json& animation = writing.draft.json["animations"][at.animation];
+  Json& samplers = animation["samplers"];
+  if (at.is_only_weights) {
+    samplers[at.sampler]["output"] = output;
+    return;
+  }
+  Json copy = samplers[at.sampler];
+  copy["output"] = output;
+  for (const std::size_t c : at.channels) animation["channels"][c]["sampler"] = samplers.size();
+  samplers.push_back(std::move(copy));
+}
+
+}  // namespace
+
+void extend_animations(MorphWriting& writing) {
+  const Curves curves = weight_curves(writing);
+  check_size(writing, curves);
+  for (const auto& [curve, samplers] : curves) {
+    const WeightSampler& first = samplers.front();
+    const std::vector<float> numbers =
+        extended(read_curve(writing.document, static_cast<int>(first.animation),
+                            static_cast<int>(first.sampler), static_cast<int>(writing.own_targets)),
+                 first_weights(writing.morph));
+    const auto replaced = std::ranges::count_if(samplers, &WeightSampler::is_only_weights);
+    const int output = replace_accessor(writing.draft, writing.references,
+                                        {std::get<1>(curve), static_cast<int>(replaced)},
+                                        {numbers.data(), numbers.size(), 1, BufferUse::Other});
+    for (const WeightSampler& sampler : samplers) set_output(writing, sampler, output);
+  }
+}
+
+}  // namespace morphbake
