@@ -14,9 +14,24 @@ namespace {
 
 struct Arguments {
   std::vector<std::filesystem::path> sources;
+  std::vector<std::string> nodes;
   std::filesystem::path recipe = "recipe.json";
   bool force = false;
 };
+
+/// One choice a source, or none.
+std::vector<NameOrIndex> chosen_nodes(const Arguments& arguments) {
+  const std::size_t sources = arguments.sources.size(), given = arguments.nodes.size();
+  if (given > 1 && given != sources) {
+    throw usage_error(fmt::format("--node is given {} times for {} sources", given, sources),
+                      "give it once for all, or once for each");
+  }
+  std::vector<NameOrIndex> nodes;
+  for (std::size_t i = 0; given > 0 && i < sources; ++i) {
+    nodes.push_back(node_choice(arguments.nodes[given == 1 ? 0 : i]));
+  }
+  return nodes;
+}
 
 [[noreturn]] void refuse(const std::filesystem::path& file, const char* message, const char* hint) {
   throw BakeError(
@@ -27,14 +42,17 @@ struct Arguments {
 FirstChoices choices_for(const Arguments& arguments, const Observer& observer) {
   PendingOutputs never_committed;
   const std::filesystem::path draft = never_committed.stage(
-      arguments.recipe, first_recipe(arguments.sources, arguments.recipe, ""));
+      arguments.recipe, first_recipe(arguments.sources, arguments.recipe, "",
+                                     {false, {}, chosen_nodes(arguments)}));
   Recipe recipe = read_recipe(draft);
   // Messages name what the user knows.
   recipe.file = arguments.recipe;
   for (std::size_t i = 0; i < arguments.sources.size(); ++i) {
     recipe.sources[i].file = arguments.sources[i];
   }
-  return first_choices(recipe, observer);
+  FirstChoices choices = first_choices(recipe, observer);
+  choices.nodes = chosen_nodes(arguments);
+  return choices;
 }
 
 void run_init(const Arguments& arguments, Terminal& terminal) {
@@ -69,6 +87,11 @@ Command add_init(CLI::App& program) {
   parser->add_option("SOURCES", arguments->sources, "glTF files, in the order of the morph")
       ->required()
       ->expected(2, 1000000);
+  parser
+      ->add_option("--node", arguments->nodes,
+                   "The node whose mesh is meant, by its name or its index from 0, where a file has "
+                   "several: once for all sources, or once for each")
+      ->allow_extra_args(false);
   parser->add_option("-o,--output", arguments->recipe, "The recipe to write")
       ->capture_default_str();
   parser->add_flag("--force", arguments->force, "Overwrite it if it exists");

@@ -34,6 +34,8 @@ void catch_interrupts() {
   action.sa_handler = note_interrupt;
   action.sa_flags = SA_RESTART;
   for (const int signal_number : {SIGINT, SIGTERM}) sigaction(signal_number, &action, nullptr);
+  // A limit on the size of files then is an error of the write, as a full disk, and is cleaned up.
+  signal(SIGXFSZ, SIG_IGN);
 }
 
 bool is_interrupted() { return interrupted; }

@@ -87,7 +87,7 @@ const words = {
 };
 
 /** Problems of one case: [] when all is as it must be. */
-async function check(name, command, [change, ...texts], { choice, mayBeRead = false, inspected = false }) {
+async function check(name, command, [change, ...texts], { choice, mayBeRead = false, inspected = false, isWarning = false }) {
   const folder = makeFolder(name, change, choice);
   const before = filesBelow(folder).length;
   const done = await run(name, folder, words[command](folder));
@@ -98,11 +98,11 @@ async function check(name, command, [change, ...texts], { choice, mayBeRead = fa
   const names = differs ? 'good.gltf' : 'bad.gltf';
   problems.push(...texts.concat(names).filter((text) => !done.stderr.includes(text))
     .map((text) => `stderr does not say ${JSON.stringify(text)}`));
-  if (done.status === 0) problems.push('it was read');
+  if ((done.status === 0) !== isWarning) problems.push(isWarning ? 'it was refused' : 'it was read');
   if (mayBeRead && !TOO_MUCH.test(done.stderr)) problems.push('it was refused, and not for its size');
   if (/[\x00-\x08\x0b-\x1f\x7f]/.test(done.stderr)) problems.push('stderr has control characters');
   if (done.stderr.length > 100000) problems.push(`stderr has ${done.stderr.length} characters`);
-  if (filesBelow(folder).filter(({ name }) => !differs || !name.endsWith('.png')).length !== before) problems.push('something was left behind');
+  if (!isWarning && filesBelow(folder).filter(({ name }) => !differs || !name.endsWith('.png')).length !== before) problems.push('something was left behind');
   if (inspected) problems.push(...(await run(name, folder, words.inspect(folder))).problems);
   return problems.length ? [...problems, done.stderr.trim().slice(0, 2000)] : [];
 }
@@ -116,6 +116,7 @@ const all = [
   ...cases([accessors, scene, huge], 'baked', 'bake', { inspected: true }),
   ...Object.entries(scene.chosen).map(([name, [choice, ...definition]]) => ({ name, definition, command: 'bake', rules: { choice } })),
   ...cases([scene, pictures, huge], 'previewed', 'preview'),
+  ...cases([pictures], 'warned', 'preview', { isWarning: true }),
   ...cases([accessors, packed, huge], 'legal', 'bake', { mayBeRead: true }),
   ...cases([pictures], 'legal', 'preview', { mayBeRead: true }),
 ].filter(({ name }) => name.includes(part));

@@ -49,20 +49,21 @@ Eigen::Array3f colour_at(const AnimatedMesh& mesh, const Appearance& appearance,
       colour += weights(k) * row.transpose().array();
     }
   }
-  if (primitive.image < 0) return colour;
+  const MipLevels* texture = texture_of(primitive, appearance);
+  if (texture == nullptr) return colour;
   Eigen::Vector2f uv = Eigen::Vector2f::Zero();
   for (int k = 0; k < 3; ++k) {
     const auto vertex = corners[static_cast<std::size_t>(k)].vertex;
     uv += weights(k) * primitive.texture_coordinates.row(vertex).transpose();
   }
   if (!uv.allFinite()) return colour;
-  return colour * texture_at(appearance.textures[static_cast<std::size_t>(primitive.image)], uv, 0);
+  return colour * texture_at(*texture, uv, 0);
 }
 
 }  // namespace
 
 CarriedColours carry_colours(const SourceMesh& source, const SourceSurface& surface,
-                             const std::vector<SurfacePoint>& points) {
+                             const std::vector<SurfacePoint>& points, const Observer& observer) {
   CarriedColours carried;
   carried.material = first_material(source.file, source.geometry.mesh);
   const AnimatedMesh mesh = read_animated_mesh(source.file, {.node = source.geometry.node});
@@ -72,7 +73,7 @@ CarriedColours carry_colours(const SourceMesh& source, const SourceSurface& surf
     if (!carried.material) carried.material.emplace();
     carried.material->base_colour.setOnes();
   }
-  const Appearance appearance = make_appearance(mesh);
+  const Appearance appearance = make_appearance(mesh, observer);
   const std::vector<PrimitiveVertex> vertices = primitive_vertices(mesh);
   carried.colours.resize(static_cast<Eigen::Index>(points.size()), 3);
   for (std::size_t i = 0; i < points.size(); ++i) {

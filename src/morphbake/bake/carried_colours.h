@@ -21,8 +21,8 @@ struct CarriedColours {
 ///
 /// Primitives of different base colours are told apart by COLOR_0; the material's factor is then
 /// white.
-/// @throws BakeError as decode_image
+/// Warns of textures as make_appearance.
 CarriedColours carry_colours(const SourceMesh& source, const SourceSurface& surface,
-                             const std::vector<SurfacePoint>& points);
+                             const std::vector<SurfacePoint>& points, const Observer& observer);
 
 }  // namespace morphbake

@@ -87,12 +87,11 @@ FileVertices split_vertices(const SharedTriangulation& triangulation) {
   return vertices;
 }
 
-std::string glb_of(const SourceMesh& source, const SourceSurface& surface,
+std::string glb_of(const SourceMesh& source, CarriedColours look,
                    const SharedTriangulation& triangulation, std::size_t s,
                    const FileVertices& vertices) {
   const Positions& geometry = triangulation.geometries[s];
   const Triangles& triangles = triangulation.connectivity.triangles;
-  CarriedColours look = carry_colours(source, surface, triangulation.on_source[s]);
   PlainMesh mesh;
   mesh.name = source.name;
   mesh.copyright = copyright_of(source.file);
@@ -171,7 +170,9 @@ ConnectivityFiles write_connectivity_files(const std::vector<SourceMesh>& source
   align(files.maps);
   for (std::size_t s = 0; s < sources.size(); ++s) {
     stop_if_cancelled(observer);
-    files.glbs.push_back(glb_of(sources[s], surfaces[s], triangulation, s, vertices));
+    CarriedColours look =
+        carry_colours(sources[s], surfaces[s], triangulation.on_source[s], observer);
+    files.glbs.push_back(glb_of(sources[s], std::move(look), triangulation, s, vertices));
     stop_if_cancelled(observer);
     append_map(sources[s], surfaces[s], triangulation.on_source[s], vertices, files.maps);
   }

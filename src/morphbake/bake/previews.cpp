@@ -24,20 +24,27 @@ std::vector<Image> sheet_pictures(const std::vector<Image>& frames) {
   return chosen;
 }
 
-/// Problems name the file as it will be called, not the staged one.
+/// A problem that names the file as it will be called, not the staged one.
+Problem as_shown(Problem problem, const PreviewPaths& paths) {
+  std::string& file = problem.location.file;
+  const std::string staged = paths.gltf_file.string();
+  if (file.starts_with(staged)) file.replace(0, staged.size(), paths.shown.string());
+  if (file.empty()) file = paths.shown.string();
+  return problem;
+}
+
 std::vector<Image> render(const PreviewPaths& paths, const TurntableOptions& look,
                           const Observer& observer) {
+  Observer renaming = observer;
+  renaming.on_problem = [&](const Problem& problem) {
+    report(observer, as_shown(problem, paths));
+  };
   try {
     return render_turntable(read_animated_mesh(paths.gltf_file, {.node = paths.node}), look,
-                            observer);
+                            renaming);
   } catch (const BakeError& error) {
-    std::vector<Problem> problems = error.problems();
-    for (Problem& problem : problems) {
-      std::string& file = problem.location.file;
-      const std::string staged = paths.gltf_file.string();
-      if (file.starts_with(staged)) file.replace(0, staged.size(), paths.shown.string());
-      if (file.empty()) file = paths.shown.string();
-    }
+    std::vector<Problem> problems;
+    for (const Problem& problem : error.problems()) problems.push_back(as_shown(problem, paths));
     throw BakeError(std::move(problems));
   }
 }

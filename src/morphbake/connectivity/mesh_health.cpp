@@ -19,10 +19,7 @@ constexpr std::size_t kPlaces = 3;
 
 /// How often the search for self-intersections may ask whether to stop, once in a thousand points:
 /// a dense, even torus of a million triangles takes a little less.
-std::int64_t most_polls(Eigen::Index triangles) { return 20000 + 3 * triangles / 10; }
-
-constexpr int kMostPolls =
-    100000;  // of the search for self-intersections, a thousand points read each
+std::int64_t most_polls(Eigen::Index triangles) { return 4000 + 3 * triangles / 10; }
 
 /// A source's mended surface in the scene.
 struct Examined {

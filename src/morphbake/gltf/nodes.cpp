@@ -209,7 +209,7 @@ MeshNode choose_mesh_node(const GltfDocument& document, const MeshChoice& choice
   if (nodes.size() > 1 && ambiguity == Ambiguity::Refuse) {
     fail_at(document, fmt::format("/nodes/{}", nodes[1]), "gltf.several-meshes",
             fmt::format("{} nodes of the scene have a mesh", nodes.size()),
-            fmt::format("choose one with \"node\" or \"mesh\"; nodes are: {}",
+            fmt::format("choose one with \"node\" or \"mesh\" (in a command, --node); nodes are: {}",
                         shown_nodes(document, nodes)));
   }
   const tinygltf::Node& node = document.model.nodes[static_cast<std::size_t>(nodes[0])];

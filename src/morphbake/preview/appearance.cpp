@@ -76,20 +76,42 @@ float texture_level(const AnimatedPrimitive& primitive, const Image& image, cons
   return std::log2(std::max(side, 1e-6f));
 }
 
+/// The picture, or an empty one after a warning.
+MipLevels decoded_texture(const AnimatedMesh& mesh, std::size_t image, const Observer& observer) {
+  const std::string name = image < mesh.image_names.size() ? mesh.image_names[image] : "";
+  try {
+    return make_mip_levels(decode_image(mesh.images[image], name));
+  } catch (const BakeError& error) {
+    for (Problem problem : error.problems()) {
+      problem.severity = Severity::Warning;
+      problem.hint = "pictures show the surface without it; " + problem.hint;
+      report(observer, problem);
+    }
+    return {};
+  }
+}
+
 }  // namespace
 
-Appearance make_appearance(const AnimatedMesh& mesh) {
+Appearance make_appearance(const AnimatedMesh& mesh, const Observer& observer) {
   Appearance appearance;
   appearance.textures.resize(mesh.images.size());
+  std::vector<bool> is_tried(mesh.images.size(), false);
   for (const AnimatedPrimitive& primitive : mesh.primitives) {
     appearance.factors.push_back(has_colour(primitive) ? primitive.base_colour.array() : kClay);
     if (!has_texture(primitive)) continue;
     const std::size_t image = static_cast<std::size_t>(primitive.image);
-    if (!appearance.textures[image].empty()) continue;
-    const std::string name = image < mesh.image_names.size() ? mesh.image_names[image] : "";
-    appearance.textures[image] = make_mip_levels(decode_image(mesh.images[image], name));
+    if (is_tried[image]) continue;
+    is_tried[image] = true;
+    appearance.textures[image] = decoded_texture(mesh, image, observer);
   }
   return appearance;
+}
+
+const MipLevels* texture_of(const AnimatedPrimitive& primitive, const Appearance& appearance) {
+  if (!has_texture(primitive)) return nullptr;
+  const MipLevels& texture = appearance.textures[static_cast<std::size_t>(primitive.image)];
+  return texture.empty() ? nullptr : &texture;
 }
 
 Eigen::Array3f texture_at(const MipLevels& texture, const Eigen::Vector2f& uv, float level) {
@@ -110,8 +132,9 @@ Eigen::Array3f base_colour_at(const AnimatedMesh& mesh, const Appearance& appear
   if (primitive.colours.rows() > 0) {
     colour *= interpolated(primitive.colours, primitive.triangles, hit).array();
   }
-  if (has_texture(primitive)) {
-    const MipLevels& texture = appearance.textures[static_cast<std::size_t>(primitive.image)];
+  const MipLevels* found = texture_of(primitive, appearance);
+  if (found != nullptr) {
+    const MipLevels& texture = *found;
     const Eigen::Vector2f uv =
         interpolated(primitive.texture_coordinates, primitive.triangles, hit);
     const float level = texture_level(primitive, texture.front(), hit, footprint, triangle_area);

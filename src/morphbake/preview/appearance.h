@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "morphbake/diagnostics/observer.h"
 #include "morphbake/gltf/animated_mesh.h"
 #include "morphbake/images/images.h"
 #include "morphbake/preview/ray_scene.h"
@@ -14,14 +15,19 @@ using MipLevels = std::vector<Image>;
 
 /// Colours of a mesh's primitives, ready to be looked up.
 struct Appearance {
-  std::vector<MipLevels> textures;  ///< one an image of the mesh; empty when no primitive uses it
+  std::vector<MipLevels> textures;  ///< one an image of the mesh; empty when no primitive uses it,
+                                    ///< or when it cannot be decoded
   std::vector<Eigen::Array3f> factors;  ///< one a primitive: linear RGB, clay if it has no colour
 };
 
 /// Decodes the base-colour textures of `mesh`.
 ///
-/// @throws BakeError as decode_image
-Appearance make_appearance(const AnimatedMesh& mesh);
+/// A texture that cannot be decoded is told as a warning, and what it covers has its factor and vertex
+/// colours alone: a picture is no reason to lose a morph.
+Appearance make_appearance(const AnimatedMesh& mesh, const Observer& observer = {});
+
+/// The primitive's texture, or none.
+const MipLevels* texture_of(const AnimatedPrimitive& primitive, const Appearance& appearance);
 
 /// Linear RGB of the base-colour factor times COLOR_0 times the texture at `hit` (glTF 2.0, 3.9.2).
 ///

@@ -213,7 +213,9 @@ Image render_landmark_sheet(const std::vector<MarkedShape>& shapes,
       const View& from = kViews[static_cast<std::size_t>(column)];
       look.azimuth = from.azimuth;
       look.elevation = from.elevation;
-      StillView view = render_still(shape.mesh, look, shape.marks);
+      const bool is_first = column == 0;  // one warning a texture is enough
+      StillView view =
+          render_still(shape.mesh, look, shape.marks, is_first ? observer : Observer());
       draw_marks(view);
       const int left = kGap + column * (size + kGap);
       paste(view.picture, left, top + kCaption, sheet);

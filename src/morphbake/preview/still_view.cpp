@@ -39,13 +39,13 @@ SeenPoint seen(const Camera& camera, const RayScene& rays, const TurntableOption
 }  // namespace
 
 StillView render_still(const AnimatedMesh& mesh, const TurntableOptions& options,
-                       const Positions& points) {
+                       const Positions& points, const Observer& observer) {
   const int cores = tbb::info::default_concurrency();
   tbb::task_arena arena(options.threads > 0 ? std::min(options.threads, cores) : cores);
   const double azimuth = options.azimuth * std::numbers::pi / 180;
   const std::vector<LoopMoment> moments = {{weights_at(mesh, 0), azimuth}};
   const Framing framing = arena.execute([&] { return frame_motion(mesh, moments, options); });
-  const Appearance appearance = make_appearance(mesh);
+  const Appearance appearance = make_appearance(mesh, observer);
   const Studio studio = make_studio(options);
   const SamplePattern pattern = make_sample_pattern(options.samples);
   const Eigen::Affine3d to_studio = mesh_to_studio(framing, azimuth);

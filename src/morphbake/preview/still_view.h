@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "morphbake/diagnostics/observer.h"
 #include "morphbake/gltf/animated_mesh.h"
 #include "morphbake/images/images.h"
 #include "morphbake/mesh/mesh.h"
@@ -24,8 +25,9 @@ struct StillView {
 ///
 /// @param options  azimuth and elevation say from where; one frame
 /// @param points   scene coordinates
-/// @throws BakeError "preview.not-finite"; what decode_image throws
+/// Warns of textures as make_appearance.
+/// @throws BakeError "preview.not-finite"
 StillView render_still(const AnimatedMesh& mesh, const TurntableOptions& options,
-                       const Positions& points);
+                       const Positions& points, const Observer& observer = {});
 
 }  // namespace morphbake

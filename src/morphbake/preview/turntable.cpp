@@ -63,7 +63,7 @@ std::vector<Image> render_turntable(const AnimatedMesh& mesh, const TurntableOpt
   tbb::task_arena arena(thread_count(options));
   const std::vector<LoopMoment> moments = loop_moments(mesh, options);
   const Framing framing = arena.execute([&] { return frame_motion(mesh, moments, options); });
-  const Appearance appearance = make_appearance(mesh);
+  const Appearance appearance = make_appearance(mesh, observer);
   const Studio studio = make_studio(options);
   const SamplePattern pattern = make_sample_pattern(options.samples);
 

@@ -42,9 +42,10 @@ struct TurntableOptions {
 /// Base colour, soft studio light, ambient occlusion, ground shadow; a surface without any colour
 /// gets that of clay. The camera keeps its distance and the subject is never cut over the whole
 /// motion.
+/// Warns of textures as make_appearance.
 /// @return  `options.frames` pictures; the same bytes whatever the number of threads
-/// @throws BakeError "preview.bad-option"; "preview.not-finite" (a vertex of some pose); what
-///         decode_image throws; Cancelled between two pictures
+/// @throws BakeError "preview.bad-option"; "preview.not-finite" (a vertex of some pose); Cancelled
+///         between two pictures
 /// @cost    one ray a sample and pixel, two more where it meets the subject or the floor nearby;
 ///          memory for all pictures and about 120 bytes a pixel
 std::vector<Image> render_turntable(const AnimatedMesh& mesh, const TurntableOptions& options,

@@ -140,7 +140,11 @@ std::string first_recipe(const std::vector<fs::path>& sources, const fs::path& r
     Json& source = recipe["sources"][names[i]];
     source = file;
     const bool is_unlike = i < choices.is_unlike.size() && choices.is_unlike[i];
-    if (is_unlike) source = {{"file", file}, {"align", "similarity"}};
+    const NameOrIndex node = i < choices.nodes.size() ? choices.nodes[i] : NameOrIndex();
+    if (is_unlike || is_chosen(node)) source = {{"file", file}};
+    if (const auto* name = std::get_if<std::string>(&node)) source["node"] = *name;
+    if (const auto* index = std::get_if<int>(&node)) source["node"] = *index;
+    if (is_unlike) source["align"] = "similarity";
   }
   if (choices.remesh) recipe["connectivity"] = {{"mode", "remesh"}};
   if (!landmark.empty()) recipe["regions"] = regions_around(landmark, names[0]);

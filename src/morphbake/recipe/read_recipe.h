@@ -23,6 +23,7 @@ Recipe redirect_outputs(Recipe recipe, const std::filesystem::path& folder);
 struct FirstChoices {
   bool remesh = false;          ///< whether they get new triangles
   std::vector<bool> is_unlike;  ///< one a source, or none: whether it is aligned to the first
+  std::vector<NameOrIndex> nodes = {};  ///< one a source, or none: whose mesh of the file is meant
 };
 
 /// A first recipe over `sources` that bakes, as JSON text.

@@ -34,6 +34,12 @@ bool check_exists(Reading& reading, const fs::path& file, const Json& as_written
              fmt::format("{} is a folder, not a file", shown(as_written)), "");
     return false;
   }
+  if (fs::exists(file, error)) {
+    complain(reading, "recipe.missing-file", pointer,
+             fmt::format("{} is no regular file", shown(as_written)),
+             "pipes and devices cannot be read");
+    return false;
+  }
   const fs::path folder = file.parent_path();
   const std::string written_folder = fs::path(as_written.get<std::string>()).parent_path().string();
   std::string hint = fmt::format("the folder {} does not exist", shown(Json(written_folder)));

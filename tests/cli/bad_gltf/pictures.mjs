@@ -59,7 +59,8 @@ export const textured = (bytes, change = () => {}) => (gltf) => {
 const I = '#/images/0', UNREADABLE = '[image.unreadable]', LARGE = '[image.too-large]';
 const good = png(4, 4);
 
-export const previewed = {
+/** Without its texture a mesh is still a mesh, and is drawn so. */
+export const warned = {
   'PNG of 60000 by 60000': [textured(png(60000, 60000, { pixels: zeros(1000) })), I, LARGE],
   'PNG of 4 billion by 4 billion': [textured(png(0xffffffff, 0xffffffff, { pixels: zeros(1000) })), I, LARGE],
   'PNG of 2^31 by 1': [textured(png(2 ** 31, 1, { pixels: zeros(1000) })), I, LARGE],
@@ -80,6 +81,9 @@ export const previewed = {
   'JPEG of 0 by 0': [textured(jpeg(0, 0)), I, UNREADABLE],
   'GIF for a texture': [textured(Buffer.from('GIF89a\x01\0\x01\0\0\0\0;', 'latin1')), I, UNREADABLE],
   'text for a texture': [textured(Buffer.from('<svg/>  ')), I, UNREADABLE],
+};
+
+export const previewed = {
   'image of a missing view': [textured(good, set('images.0.bufferView', 99)), '[gltf.invalid]'],
   'image beyond its buffer': [textured(good, (g) => { g.bufferViews[g.images[0].bufferView].byteLength = 1e6; }), 'gltf.'],
   'image at 4 GB': [textured(good, (g) => { g.bufferViews[g.images[0].bufferView].byteOffset = 4294967292; }), 'gltf.'],
@@ -94,7 +98,6 @@ export const previewed = {
   }), '#/meshes/0/primitives/0/attributes/TEXCOORD_0', '[gltf.not-finite]'],
 };
 
-/** Without its texture a mesh is still a mesh. */
 export const legal = {
   'good texture': [textured(good)],
   'texture of a missing image': [textured(good, set('textures.0.source', 44))],

@@ -57,12 +57,21 @@ TEST(Turntable, RefusesVerticesThatAreNotFinite) {
   EXPECT_EQ(codes_of(mesh, small_options()), std::vector<std::string>{"preview.not-finite"});
 }
 
-TEST(Turntable, RefusesADamagedTexture) {
+TEST(Turntable, WarnsOfADamagedTextureAndGoesOnWithoutIt) {
   AnimatedMesh mesh = growing_column();
   mesh.images = {"no image"};
   mesh.primitives[0].image = 0;
   mesh.primitives[0].texture_coordinates = Float2s::Zero(mesh.primitives[0].positions.rows(), 2);
-  EXPECT_EQ(codes_of(mesh, small_options()), std::vector<std::string>{"image.unreadable"});
+  std::vector<Problem> told;
+  Observer observer;
+  observer.on_problem = [&](const Problem& problem) { told.push_back(problem); };
+  const std::vector<Image> pictures = render_turntable(mesh, small_options(), observer);
+  ASSERT_EQ(told.size(), 1U);
+  EXPECT_EQ(told[0].code, "image.unreadable");
+  EXPECT_EQ(told[0].severity, Severity::Warning);
+  mesh.primitives[0].image = -1;
+  mesh.primitives[0].texture_coordinates.resize(0, 2);
+  EXPECT_EQ(pictures.size(), render_turntable(mesh, small_options(), {}).size());
 }
 
 TEST(Turntable, StopsWhenItIsCancelled) {
