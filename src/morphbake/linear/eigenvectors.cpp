@@ -6,7 +6,6 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <string>
 #include <utility>
 
@@ -23,18 +22,14 @@
 namespace morphbake {
 namespace {
 
-constexpr int kDenseVertices = 400;  ///< components up to this size, and
-constexpr int kDenseShare = 4;       ///< those of which more than one in so many pairs are wanted
+constexpr std::size_t kDenseVertices = 400;  ///< components up to this size, and
+constexpr std::size_t kDenseShare = 4;       ///< those of which one in so many pairs are wanted
 
 constexpr int kPolynomialDegree = 3;
-constexpr double kShift = 0.1;       ///< epsilon of K_L + epsilon Deg, as a share of mu
-constexpr double kUnwanted = 1.4;    ///< the polynomial is small above this many times mu
-constexpr double kExtraPairs = 0.1;  ///< that mu may enclose more than were asked for
+constexpr double kShift = 0.1;     ///< epsilon of K_L + epsilon Deg, as a share of mu
+constexpr double kUnwanted = 1.4;  ///< the polynomial is small above this many times mu
+constexpr int kExtraShare = 10;    ///< mu may enclose one in so many more than were asked for
 constexpr int kRounds = 40;
-
-/// Above all eigenvalues. No simple number: eigenvalues of regular meshes are, and bisection must
-/// not meet them.
-constexpr double kAbove = 2.0123456789;
 
 constexpr double kSame = 1e-9;  ///< eigenvalues this close, relative, are one
 constexpr double kLargestResidual = 1e-8;
@@ -52,13 +47,13 @@ struct Pairs {
 /// One component as a mesh of its own.
 struct Piece {
   std::vector<int> vertices;  ///< in the whole mesh, rising
-  Eigen::SparseMatrix<double> K_L;
+  Eigen::SparseMatrix<double> laplacian;
   Eigen::VectorXd root;  ///< Deg^1/2
   int wanted = 0;        ///< eigenvalues below mu
 
   Eigen::MatrixXd apply(const Eigen::MatrixXd& w) const {
     const auto inverse_root = root.cwiseInverse().asDiagonal();
-    return inverse_root * (K_L * (inverse_root * w));
+    return inverse_root * (laplacian * (inverse_root * w));
   }
 };
 
@@ -82,42 +77,24 @@ std::vector<Piece> split(const OneRings& rings, const Components& components) {
       }
       own.offsets.push_back(static_cast<int>(own.neighbours.size()));
     }
-    piece.K_L = symmetric_laplacian(own);
+    piece.laplacian = symmetric_laplacian(own);
     piece.root = degrees(piece.vertices).cwiseSqrt();
   }
   return pieces;
 }
 
-/// Finds mu with `count` eigenvalues below it, or a few more, and counts them by component.
-///
-/// On a surface eigenvalues grow in proportion to their index (Weyl's law), so few counts do; where
-/// many are equal, bisection ends right above them.
-double enclose(SpectrumCount& spectrum, int count, const Observer& observer,
-               std::vector<int>& counts) {
-  double low = 0, high = kAbove;
-  counts = spectrum.below_by_component(high);
-  const auto vertex_count = static_cast<double>(spectrum.vertex_count());
-  if (vertex_count <= kDenseVertices || count > vertex_count / kDenseShare) return high;
-  const double largest = (1 + kExtraPairs) * count + 4;
-  int total = spectrum.vertex_count();
-  double guess = 4 * (count + largest) / 2 / vertex_count;
-  while (total > largest && high - low > kSame * high) {
-    stop_if_cancelled(observer);
-    if (!(guess > low && guess < high)) guess = (low + high) / 2;
-    std::vector<int> found = spectrum.below_by_component(guess);
-    const int below = std::accumulate(found.begin(), found.end(), 0);
-    if (below < count) {
-      low = guess;
-    } else {
-      high = guess;
-      total = below;
-      counts = std::move(found);
-    }
-    const double proportional = guess * (count + largest) / 2 / std::max(1, below);
-    const double width = high - low;
-    guess = std::clamp(proportional, low + 0.05 * width, high - 0.05 * width);
-  }
-  return high;
+/// Whether a dense solver is no slower, or the iteration would have too little room.
+bool is_dense(std::size_t vertex_count, int wanted) {
+  return vertex_count <= kDenseVertices ||
+         static_cast<std::size_t>(wanted) > vertex_count / kDenseShare;
+}
+
+/// mu with `count` eigenvalues below it, or a few more.
+Enclosure enclose(SpectrumCount& spectrum, int count, const Observer& observer) {
+  const int vertex_count = spectrum.vertex_count();
+  const bool takes_all = is_dense(static_cast<std::size_t>(vertex_count), count);
+  const int most = takes_all ? vertex_count : count + count / kExtraShare + 4;
+  return spectrum.enclose(count, most, kSame, observer);
 }
 
 Eigen::VectorXd constant_of(const Piece& piece) { return piece.root.normalized(); }
@@ -162,7 +139,7 @@ class FilteredInverse {
 
  private:
   static SymmetricSystem shifted(const Piece& piece, double epsilon) {
-    SymmetricSystem system{piece.K_L, std::vector<int>(piece.vertices.size(), -1), 0};
+    SymmetricSystem system{piece.laplacian, std::vector<int>(piece.vertices.size(), -1), 0};
     for (Eigen::Index v = 0; v < piece.root.size(); ++v) {
       system.matrix.coeffRef(v, v) += epsilon * piece.root(v) * piece.root(v);
     }
@@ -238,11 +215,10 @@ Pairs solve_sparse(const Piece& piece, double mu, const EigenvectorOptions& opti
 
 Pairs solve_piece(const Piece& piece, double mu, const EigenvectorOptions& options,
                   const Observer& observer) {
-  const auto vertex_count = static_cast<int>(piece.vertices.size());
   Pairs pairs;
   if (piece.wanted <= 1) {
     pairs = {Eigen::VectorXd::Zero(piece.wanted), constant_of(piece).leftCols(piece.wanted)};
-  } else if (vertex_count <= kDenseVertices || piece.wanted > vertex_count / kDenseShare) {
+  } else if (is_dense(piece.vertices.size(), piece.wanted)) {
     pairs = solve_dense(piece);
   } else {
     pairs = solve_sparse(piece, mu, options, observer);
@@ -312,13 +288,12 @@ SpectralBasis smallest_eigenvectors(const OneRings& rings, int count,
          "");
   }
   std::vector<Piece> pieces = split(rings, spectrum.components());
-  std::vector<int> counts(pieces.size(), 1);
-  double mu = 0;
-  if (count > spectrum.components().count) mu = enclose(spectrum, count, observer, counts);
+  Enclosure below{0, std::vector<int>(pieces.size(), 1)};  // the constants
+  if (count > spectrum.components().count) below = enclose(spectrum, count, observer);
   std::vector<Pairs> pairs;
   for (std::size_t p = 0; p < pieces.size(); ++p) {
-    pieces[p].wanted = counts[p];
-    pairs.push_back(solve_piece(pieces[p], mu, options, observer));
+    pieces[p].wanted = below.counts[p];
+    pairs.push_back(solve_piece(pieces[p], below.lambda, options, observer));
   }
   SpectralBasis basis = assemble(pieces, pairs, spectrum.vertex_count(), count);
   const double residual = basis.residuals.maxCoeff();

@@ -5,6 +5,7 @@
 #include <Eigen/SparseCholesky>
 #include <algorithm>
 #include <numeric>
+#include <utility>
 
 #include "morphbake/diagnostics/problem.h"
 #include "morphbake/differential/laplacian.h"
@@ -12,13 +13,23 @@
 namespace morphbake {
 namespace {
 
-/// A pivot below this share of its vertex's degree makes what is eliminated after it too large for
-/// its signs to be trusted: without pivoting, rounding grows by its inverse.
+/// A pivot below this share of its vertex's degree (of lambda times it, where that is less) makes
+/// what is eliminated after it too large for its signs to be trusted: without pivoting, rounding
+/// grows by its inverse.
 constexpr double kSmallestPivot = 1e-8;
 
 /// Steps away from such a pivot, as shares of lambda, each ten times as long.
 constexpr double kFirstStep = 1e-7;
 constexpr int kSteps = 4;
+
+/// Above all eigenvalues. No simple number: eigenvalues of regular meshes are, and bisection must
+/// not meet them.
+constexpr double kAbove = 2.0123456789;
+
+/// A guess comes no closer to an end of the interval than this share of it: it shrinks.
+constexpr double kMargin = 0.05;
+
+constexpr double kWeyl = 4;  ///< eigenvalues are about this many times their index / #V
 
 }  // namespace
 
@@ -30,26 +41,27 @@ Eigen::VectorXd spectral_degrees(const OneRings& rings) {
 }
 
 struct SpectrumCount::Factor {
-  Eigen::SparseMatrix<double> K_L;
+  Eigen::SparseMatrix<double> laplacian;
   Eigen::VectorXd degrees;
   Components components;
   Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> ldlt;
 
   bool factorise(double lambda) {
-    Eigen::SparseMatrix<double> shifted = K_L;
+    Eigen::SparseMatrix<double> shifted = laplacian;
     for (Eigen::Index v = 0; v < degrees.size(); ++v) shifted.coeffRef(v, v) -= lambda * degrees(v);
     ldlt.factorize(shifted);
     if (ldlt.info() != Eigen::Success) return false;
     const Eigen::VectorXd pivots = ldlt.permutationPinv() * ldlt.vectorD();
-    return (pivots.array().abs() > kSmallestPivot * degrees.array()).all();
+    const double smallest = kSmallestPivot * std::min(1.0, lambda);
+    return (pivots.array().abs() > smallest * degrees.array()).all();
   }
 };
 
 SpectrumCount::SpectrumCount(const OneRings& rings) : factor_(std::make_unique<Factor>()) {
-  factor_->K_L = symmetric_laplacian(rings);
+  factor_->laplacian = symmetric_laplacian(rings);
   factor_->degrees = spectral_degrees(rings);
   factor_->components = connected_components(rings);
-  if (vertex_count() > 0) factor_->ldlt.analyzePattern(factor_->K_L);
+  if (vertex_count() > 0) factor_->ldlt.analyzePattern(factor_->laplacian);
 }
 
 SpectrumCount::~SpectrumCount() = default;
@@ -90,6 +102,29 @@ std::vector<int> SpectrumCount::below_by_component(double lambda) {
     }
   }
   return counts;
+}
+
+Enclosure SpectrumCount::enclose(int fewest, int most, double precision, const Observer& observer) {
+  double low = 0;
+  Enclosure enclosure{kAbove, below_by_component(kAbove)};
+  int total = vertex_count();
+  const double middle = (fewest + 1.0 * most) / 2;
+  double guess = kWeyl * middle / std::max(1, vertex_count());
+  while (total > most && enclosure.lambda - low > precision * enclosure.lambda) {
+    stop_if_cancelled(observer);
+    const double margin = kMargin * (enclosure.lambda - low);
+    guess = std::clamp(guess, low + margin, enclosure.lambda - margin);
+    std::vector<int> found = below_by_component(guess);
+    const int count = std::accumulate(found.begin(), found.end(), 0);
+    if (count < fewest) {
+      low = guess;
+    } else {
+      enclosure = {guess, std::move(found)};
+      total = count;
+    }
+    guess *= middle / std::max(1, count);
+  }
+  return enclosure;
 }
 
 int eigenvalues_below(const OneRings& rings, double lambda) {

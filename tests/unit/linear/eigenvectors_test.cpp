@@ -170,6 +170,12 @@ TEST(SpectrumCount, StepsAsideWhereEveryPivotVanishes) {
   EXPECT_EQ(eigenvalues_below(rings_of(test::torus(20, 13)), 1), below);
 }
 
+TEST(SpectrumCount, CountsVerticesWithoutTriangles) {
+  SpectrumCount spectrum(one_rings({6, test::tetrahedron().triangles}));
+  EXPECT_EQ(spectrum.below_by_component(1e-12), (std::vector<int>{1, 1, 1}));
+  EXPECT_EQ(spectrum.below_by_component(1.4), (std::vector<int>{4, 1, 1}));
+}
+
 TEST(SpectrumCount, CountsByComponent) {
   SpectrumCount spectrum(rings_of(test::joined(test::tetrahedron(), test::torus(20, 12))));
   EXPECT_EQ(spectrum.below_by_component(1.3),
