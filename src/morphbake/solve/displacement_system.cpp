@@ -1,5 +1,7 @@
 #include "morphbake/solve/displacement_system.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <utility>
 
@@ -73,6 +75,15 @@ Eigen::VectorXd share_variation(const OneRings& rings, const Eigen::MatrixXd& sh
     });
   }
   return variation;
+}
+
+void require_finite(const Positions& displacements, const char* what, const char* hint) {
+  if (displacements.allFinite()) return;
+  throw BakeError(Problem{Severity::Error,
+                          "solve.not-finite",
+                          {},
+                          fmt::format("the {} positions are not finite numbers", what),
+                          hint});
 }
 
 }  // namespace
@@ -199,13 +210,8 @@ Goal DisplacementSystem::goal(const Eigen::MatrixXd& change) const {
   goal.blend = blend_positions(mesh_.geometries, change);
   goal.uniform = uniform_components(components_, change);
   goal.imbalance = Positions::Zero(components_.count, 3);
-  if (!goal.blend.allFinite()) {
-    throw BakeError(Problem{Severity::Error,
-                            "solve.not-finite",
-                            {},
-                            "the blended positions are not finite numbers",
-                            "the sources' coordinates are too large for double precision"});
-  }
+  require_finite(goal.blend, "blended",
+                 "the sources' coordinates are too large for double precision");
   goal.start = goal.blend;
   if (goal.is_blend()) return goal;
   const Eigen::Index count = goal.start.rows(), stride = change.cols() > count ? count : 0;
@@ -224,6 +230,32 @@ Goal DisplacementSystem::goal(const Eigen::MatrixXd& change) const {
     goal.differences = blend_vertex_differences(rings_, mesh_.geometries, change);
     balance(change, goal);
   }
+  return goal;
+}
+
+Goal DisplacementSystem::goal_of_moves(const Positions& moves) const {
+  Goal goal;
+  goal.blend = Positions::Zero(moves.rows(), 3);
+  goal.differences = Positions::Zero(moves.rows(), 3);
+  goal.imbalance = Positions::Zero(components_.count, 3);
+  goal.uniform.assign(static_cast<std::size_t>(components_.count), true);
+  Positions first = Positions::Zero(components_.count, 3);
+  std::vector<bool> is_known(goal.uniform.size(), false);
+  for (Eigen::Index v = 0; v < moves.rows(); ++v) {
+    const auto vertex = static_cast<std::size_t>(v);
+    const auto component = static_cast<std::size_t>(components_.label[vertex]);
+    if (!constraints_.held[vertex]) continue;
+    goal.blend.row(v) = moves.row(v);
+    if (!is_known[component]) first.row(components_.label[vertex]) = moves.row(v);
+    is_known[component] = true;
+    if (moves.row(v) != first.row(components_.label[vertex])) goal.uniform[component] = false;
+  }
+  require_finite(goal.blend, "moved", "move vertices to numbers");
+  for (const int v : vertex_of_unknown_) {
+    const int component = components_.label[static_cast<std::size_t>(v)];
+    if (goal.uniform[static_cast<std::size_t>(component)]) goal.blend.row(v) = first.row(component);
+  }
+  goal.start = goal.blend;
   return goal;
 }
 
