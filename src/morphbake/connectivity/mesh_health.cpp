@@ -21,9 +21,6 @@ constexpr std::size_t kPlaces = 3;
 /// a dense, even torus of a million triangles takes a little less.
 std::int64_t most_polls(Eigen::Index triangles) { return 20000 + 3 * triangles / 10; }
 
-constexpr int kMostPolls =
-    100000;  // of the search for self-intersections, a thousand points read each
-
 /// A source's mended surface in the scene.
 struct Examined {
   const SourceMesh& source;

@@ -150,14 +150,17 @@ std::vector<int> with_chosen_mesh(const GltfDocument& document, const MeshChoice
 }
 
 void check_transform(const GltfDocument& document, const MeshNode& at) {
-  const double determinant = at.to_scene.topLeftCorner<3, 3>().determinant();
-  if (std::abs(determinant) > 1e-30) return;
+  if (is_invertible(at.to_scene)) return;
   fail_at(document, fmt::format("/nodes/{}", at.node), "gltf.singular-transform",
           "the node's transform flattens the mesh (determinant 0)",
           "apply the transform and export again");
 }
 
 }  // namespace
+
+bool is_invertible(const Eigen::Matrix4d& transform) {
+  return std::abs(transform.topLeftCorner<3, 3>().determinant()) > 1e-30;
+}
 
 Eigen::Matrix4d transform_of(const std::vector<double>& translation,
                              const std::vector<double>& rotation,
@@ -218,7 +221,9 @@ MeshNode choose_mesh_node(const GltfDocument& document, const MeshChoice& choice
     fail_at(document, fmt::format("/nodes/{}/mesh", at.node), "gltf.invalid",
             fmt::format("mesh {} does not exist", at.mesh));
   }
-  if (node.skin >= 0) at.to_scene = joint_transforms(document, node.skin, order.to_scene).front();
+  if (node.skin >= 0) {
+    at.to_scene = bound_to_scene(joint_transforms(document, node.skin, order.to_scene));
+  }
   check_transform(document, at);
   return at;
 }

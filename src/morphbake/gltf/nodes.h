@@ -36,6 +36,9 @@ std::vector<Eigen::Matrix4d> rest_transforms(const GltfDocument& document);
 Eigen::Matrix4d transform_of(const std::vector<double>& translation,
                              const std::vector<double>& rotation, const std::vector<double>& scale);
 
+/// Whether a transform flattens nothing.
+bool is_invertible(const Eigen::Matrix4d& transform);
+
 /// What is to be done when several nodes could be meant.
 enum class Ambiguity { Refuse, TakeFirst };
 
