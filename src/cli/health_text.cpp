@@ -3,12 +3,10 @@
 #include <fmt/core.h>
 #include <fmt/format.h>
 
+#include "morphbake/diagnostics/counted.h"
+
 namespace morphbake::cli {
 namespace {
-
-std::string counted(int count, const char* one, const char* several) {
-  return fmt::format("{} {}", count, count == 1 ? one : several);
-}
 
 std::string places_text(const HealthFinding& finding) {
   std::vector<std::string> places;

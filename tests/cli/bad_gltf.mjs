@@ -42,6 +42,7 @@ function makeFolder(name, change, choice) {
   symlinkSync('..', join(folder, 'linked'));
   execFileSync('mkfifo', [join(folder, 'pipe.bin')]);
   writeFileSync(join(folder, 'short.bin'), Buffer.alloc(8));
+  writeFileSync(join(folder, 'empty.png'), '');
   writeFileSync(join(folder, 'megabyte.bin'), Buffer.alloc(1 << 20));
   writeFileSync(join(folder, 'good.gltf'), JSON.stringify(octahedron()));
   writeFileSync(join(folder, 'bad.gltf'), makeFile(change));
@@ -99,6 +100,8 @@ async function check(name, command, [change, ...texts], { choice, mayBeRead = fa
   problems.push(...texts.concat(names).filter((text) => !done.stderr.includes(text))
     .map((text) => `stderr does not say ${JSON.stringify(text)}`));
   if ((done.status === 0) !== isWarning) problems.push(isWarning ? 'it was refused' : 'it was read');
+  // What is wrong in the JSON is told with its place; a container has none.
+  if (done.stderr.includes('[gltf.invalid]') && !done.stderr.includes('bad.gltf#/') && !name.startsWith('glb with')) problems.push('no place is named');
   if (mayBeRead && !TOO_MUCH.test(done.stderr)) problems.push('it was refused, and not for its size');
   if (/[\x00-\x08\x0b-\x1f\x7f]/.test(done.stderr)) problems.push('stderr has control characters');
   if (done.stderr.length > 100000) problems.push(`stderr has ${done.stderr.length} characters`);
@@ -115,6 +118,7 @@ const all = [
   // Inspect reads more of a file than a bake does: it must end well, however it ends.
   ...cases([accessors, scene, huge], 'baked', 'bake', { inspected: true }),
   ...Object.entries(scene.chosen).map(([name, [choice, ...definition]]) => ({ name, definition, command: 'bake', rules: { choice } })),
+  ...Object.entries(huge.chosen).map(([name, [choice, ...definition]]) => ({ name, definition, command: 'bake', rules: { choice, mayBeRead: true } })),
   ...cases([scene, pictures, huge], 'previewed', 'preview'),
   ...cases([pictures], 'warned', 'preview', { isWarning: true }),
   ...cases([accessors, packed, huge], 'legal', 'bake', { mayBeRead: true }),

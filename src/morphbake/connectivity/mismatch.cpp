@@ -8,6 +8,7 @@
 #include <string>
 #include <utility>
 
+#include "morphbake/diagnostics/counted.h"
 #include "morphbake/mesh/sides.h"
 #include "morphbake/sources/corner_surface.h"
 
@@ -247,10 +248,6 @@ bool have_same_vertex_order(const SourceMesh& a, const SourceMesh& b) {
 std::string spot_text(const MismatchPlace::Spot& spot, const std::string& source) {
   const Eigen::RowVector3d& at = spot.position;
   return fmt::format("({:.4g}, {:.4g}, {:.4g}) in \"{}\"", at(0), at(1), at(2), source);
-}
-
-std::string counted(int count, const char* one, const char* several) {
-  return count == 1 ? std::string("1 ") + one : fmt::format("{} {}", count, several);
 }
 
 }  // namespace

@@ -50,15 +50,10 @@ MorphableMesh share_connectivity(const std::vector<SourceMesh>& sources) {
   mesh.triangle_of_file = surface.triangle_of_file;
   mesh.repairs = surface.repairs;
   mesh.render_of_corner = render_corners(first, surface);
-  mesh.vertex_of_render.assign(static_cast<std::size_t>(first.positions.rows()), -1);
+  mesh.vertex_of_render = vertices_of_render(first, surface);
   for (const SourceMesh& source : sources) {
     mesh.names.push_back(source.name);
     mesh.geometries.push_back(vertex_positions(source, surface));
-  }
-  for (std::size_t c = 0; c < surface.vertex_of_corner.size(); ++c) {
-    const int vertex = surface.vertex_of_corner[c];
-    const auto render = static_cast<std::size_t>(first.triangles.data()[c]);
-    if (vertex >= 0) mesh.vertex_of_render[render] = vertex;
   }
   check_manifold(first, mesh.connectivity, mesh.geometries[0]);
   return mesh;

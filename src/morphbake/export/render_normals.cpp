@@ -10,18 +10,6 @@
 namespace morphbake {
 namespace {
 
-/// NORMAL of every render vertex as it stands in the file; no rows when a primitive has none.
-Float3s all_file_normals(const SourceMesh& source) {
-  Float3s normals(source.positions.rows(), 3);
-  Eigen::Index begin = 0;
-  for (const PrimitiveGeometry& primitive : source.geometry.primitives) {
-    if (primitive.normals.rows() == 0) return {};
-    normals.middleRows(begin, primitive.normals.rows()) = primitive.normals;
-    begin += primitive.normals.rows();
-  }
-  return normals;
-}
-
 /// Lists the file's triangles that K has, and the groups of their corners.
 void add_drawn_triangles(const SourceMesh& first, const MorphableMesh& mesh,
                          SmoothingGroups& groups) {
@@ -49,8 +37,8 @@ Normals surface_normals(const SmoothingGroups& groups, const MorphableMesh& mesh
 
 SmoothingGroups find_smoothing_groups(const SourceMesh& first, const MorphableMesh& mesh) {
   SmoothingGroups groups;
-  const Float3s file_normals = all_file_normals(first);
-  if (file_normals.rows() == 0) return groups;
+  const Float3s normals = file_normals(first);
+  if (normals.rows() == 0) return groups;
   using NormalBits = std::array<float, 3>;
   std::vector<std::map<NormalBits, int>> at_vertex(
       static_cast<std::size_t>(mesh.connectivity.vertex_count));
@@ -59,7 +47,7 @@ SmoothingGroups find_smoothing_groups(const SourceMesh& first, const MorphableMe
   for (std::size_t r = 0; r < mesh.vertex_of_render.size(); ++r) {
     const int vertex = mesh.vertex_of_render[r];
     if (vertex < 0) continue;
-    const auto row = file_normals.row(static_cast<Eigen::Index>(r));
+    const auto row = normals.row(static_cast<Eigen::Index>(r));
     const auto [entry, is_new] = at_vertex[static_cast<std::size_t>(vertex)].try_emplace(
         NormalBits{row(0), row(1), row(2)}, groups.count);
     groups.of_render[r] = entry->second;
@@ -70,7 +58,7 @@ SmoothingGroups find_smoothing_groups(const SourceMesh& first, const MorphableMe
   add_drawn_triangles(first, mesh, groups);
   // Normals go to the scene by the inverse transpose (glTF 2.0, 3.7.2.1).
   const Eigen::Matrix3d inverse = first.geometry.to_scene.topLeftCorner<3, 3>().inverse();
-  const Float3s chosen = file_normals(render_of_group, Eigen::all);
+  const Float3s chosen = normals(render_of_group, Eigen::all);
   groups.surface_normals = surface_normals(groups, mesh, mesh.geometries[0]);
   groups.source_normals = chosen.cast<double>() * inverse;
   for (int g = 0; g < groups.count; ++g) {

@@ -78,25 +78,39 @@ void make_folders(const fs::path& folder, std::vector<fs::path>& made) {
   if (error) fail_to_write(folder, error.value());
 }
 
-}  // namespace
-
-std::string read_file(const fs::path& path, std::uintmax_t size_limit) {
+std::uintmax_t size_of_regular(const fs::path& path) {
   std::error_code error;
   const fs::file_status status = fs::status(path, error);
   if (!fs::exists(status)) fail("files.missing", path, "there is no such file");
   if (!fs::is_regular_file(status)) fail("files.not-a-file", path, "this is not a regular file");
   const std::uintmax_t size = fs::file_size(path, error);
   if (error) fail("files.unreadable", path, "cannot read: " + error.message());
-  if (size > size_limit) {
-    fail("files.too-large", path,
-         fmt::format("the file has {} bytes; the limit is {}", size, size_limit));
-  }
+  return size;
+}
+
+/// @param size  bytes that the file has, or fewer
+std::string read_bytes(const fs::path& path, std::uintmax_t size) {
   std::ifstream stream(path, std::ios::binary);
   std::string bytes(static_cast<std::size_t>(size), '\0');
   if (!stream || !stream.read(bytes.data(), static_cast<std::streamsize>(size))) {
     fail("files.unreadable", path, "cannot read the file");
   }
   return bytes;
+}
+
+}  // namespace
+
+std::string read_file(const fs::path& path, std::uintmax_t size_limit) {
+  const std::uintmax_t size = size_of_regular(path);
+  if (size > size_limit) {
+    fail("files.too-large", path,
+         fmt::format("the file has {} bytes; the limit is {}", size, size_limit));
+  }
+  return read_bytes(path, size);
+}
+
+std::string read_file_start(const fs::path& path, std::uintmax_t most) {
+  return read_bytes(path, std::min(size_of_regular(path), most));
 }
 
 fs::path inside_folder(const fs::path& folder, std::string_view uri) {

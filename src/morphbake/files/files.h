@@ -14,6 +14,11 @@ namespace morphbake {
 /// @throws BakeError "files.missing", "files.not-a-file", "files.unreadable", "files.too-large"
 std::string read_file(const std::filesystem::path& path, std::uintmax_t size_limit);
 
+/// The first `most` bytes of a regular file, or all of a shorter one.
+///
+/// @throws BakeError "files.missing", "files.not-a-file", "files.unreadable"
+std::string read_file_start(const std::filesystem::path& path, std::uintmax_t most);
+
 /// The file that a relative reference `uri` inside `folder` names.
 ///
 /// @param uri  a relative path as it stands in a glTF or recipe, percent-encoding already removed

@@ -273,6 +273,14 @@ int accessor_columns(const GltfDocument& document, int accessor, const std::stri
   return tinygltf::GetNumComponentsInType(static_cast<std::uint32_t>(type));
 }
 
+void check_count(const GltfDocument& document, int accessor, std::size_t vertices,
+                 const std::string& pointer) {
+  const std::size_t count = accessor_count(document, accessor, pointer);
+  if (count == vertices) return;
+  fail_at(document, pointer, "gltf.accessor",
+          fmt::format("the attribute has {} elements for {} positions", count, vertices));
+}
+
 std::vector<float> read_floats(const GltfDocument& document, int index, int columns,
                                const std::string& pointer) {
   check_components(document, index, columns, pointer);

@@ -18,6 +18,11 @@ std::size_t accessor_count(const GltfDocument& document, int accessor, const std
 /// Numbers an element of the accessor has: 1 for SCALAR to 16 for MAT4.
 int accessor_columns(const GltfDocument& document, int accessor, const std::string& pointer);
 
+/// @param vertices  that a primitive has: each of its attributes has as many elements
+/// @throws BakeError "gltf.accessor"
+void check_count(const GltfDocument& document, int accessor, std::size_t vertices,
+                 const std::string& pointer);
+
 /// The accessor's elements of `columns` numbers each, row by row: floats, or integers, which become
 /// fractions when they are normalised (glTF 2.0, 3.6.2.2). Sparse elements are put in; without a
 /// bufferView the others are 0.

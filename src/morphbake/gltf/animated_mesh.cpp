@@ -10,6 +10,7 @@
 #include "morphbake/gltf/animation_curve.h"
 #include "morphbake/gltf/nodes.h"
 #include "morphbake/gltf/primitive_geometry.h"
+#include "morphbake/gltf/resources.h"
 #include "morphbake/gltf/size_limits.h"
 
 namespace morphbake {
@@ -18,23 +19,25 @@ namespace {
 using Attributes = std::map<std::string, int>;
 
 Float3s read_colours(const GltfDocument& document, const Attributes& attributes,
-                     const std::string& pointer) {
+                     Eigen::Index vertices, const std::string& pointer) {
   const auto found = attributes.find("COLOR_0");
   if (found == attributes.end()) return {};
   const std::string place = pointer + "/COLOR_0";
+  check_count(document, found->second, static_cast<std::size_t>(vertices), place);
   const int columns = accessor_columns(document, found->second, place) == 4 ? 4 : 3;
   const std::vector<float> values = read_floats(document, found->second, columns, place);
-  const auto count = static_cast<Eigen::Index>(values.size()) / columns;
   using Rows = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-  return Eigen::Map<const Rows>(values.data(), count, columns).leftCols<3>();
+  return Eigen::Map<const Rows>(values.data(), vertices, columns).leftCols<3>();
 }
 
-Float2s read_texture_coordinates(const GltfDocument& document, const Attributes& attributes,
-                                 int set, const std::string& pointer) {
+Float2s read_texture_coordinates(const GltfDocument& document, const tinygltf::Primitive& primitive,
+                                 int set, Eigen::Index vertices, const std::string& pointer) {
   const std::string name = fmt::format("TEXCOORD_{}", set);
-  const auto found = attributes.find(name);
-  if (found == attributes.end()) return {};
-  return read_float2s(document, found->second, pointer + "/" + name);
+  const auto found = primitive.attributes.find(name);
+  if (found == primitive.attributes.end()) return {};
+  const std::string place = fmt::format("{}/attributes/{}", pointer, name);
+  check_count(document, found->second, static_cast<std::size_t>(vertices), place);
+  return read_float2s(document, found->second, place);
 }
 
 /// A number of a texture's transform, `otherwise` where it says nothing.
@@ -96,18 +99,10 @@ int add_image(const GltfDocument& document, int texture, UsedImages& images) {
   const auto [entry, is_new] =
       images.index.try_emplace(source, static_cast<int>(images.bytes.size()));
   if (is_new) {
-    const auto& bytes = model.images[static_cast<std::size_t>(source)].image;
-    images.bytes.emplace_back(bytes.begin(), bytes.end());
+    images.bytes.emplace_back(image_bytes(document, static_cast<std::size_t>(source)));
     images.names.push_back(fmt::format("{}#/images/{}", document.file.string(), source));
   }
   return entry->second;
-}
-
-void check_rows(const GltfDocument& document, Eigen::Index rows, Eigen::Index expected,
-                const std::string& pointer) {
-  if (rows == 0 || rows == expected) return;
-  fail_at(document, pointer, "gltf.accessor",
-          fmt::format("the attribute has {} elements for {} positions", rows, expected));
 }
 
 void read_material(const GltfDocument& document, const tinygltf::Primitive& source,
@@ -122,11 +117,10 @@ void read_material(const GltfDocument& document, const tinygltf::Primitive& sour
   primitive.image = add_image(document, surface.baseColorTexture.index, images);
   if (primitive.image < 0) return;
   const TexturePlacement placement = placement_of(surface.baseColorTexture);
-  const std::string place = pointer + "/attributes";
-  primitive.texture_coordinates = placed(
-      read_texture_coordinates(document, source.attributes, placement.set, place), placement);
-  check_rows(document, primitive.texture_coordinates.rows(), primitive.positions.rows(),
-             fmt::format("{}/TEXCOORD_{}", place, placement.set));
+  primitive.texture_coordinates =
+      placed(read_texture_coordinates(document, source, placement.set, primitive.positions.rows(),
+                                      pointer),
+             placement);
   if (primitive.texture_coordinates.rows() == 0) primitive.image = -1;
 }
 
@@ -138,8 +132,7 @@ AnimatedPrimitive read_primitive(const GltfDocument& document, const tinygltf::P
   primitive.normals = std::move(geometry.normals);
   primitive.triangles = std::move(geometry.triangles);
   const Eigen::Index vertices = primitive.positions.rows();
-  primitive.colours = read_colours(document, source.attributes, pointer + "/attributes");
-  check_rows(document, primitive.colours.rows(), vertices, pointer + "/attributes/COLOR_0");
+  primitive.colours = read_colours(document, source.attributes, vertices, pointer + "/attributes");
   for (std::size_t t = 0; t < source.targets.size(); ++t) {
     TargetGeometry target = read_target(document, source, t, vertices, pointer);
     primitive.target_positions.push_back(std::move(target.positions));

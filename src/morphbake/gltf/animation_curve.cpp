@@ -48,6 +48,24 @@ void check_times(const GltfDocument& document, const std::vector<float>& times,
                       fault == times.end() ? times.front() : *(fault + 1)));
 }
 
+/// Checks how many numbers the output has, before any is read.
+///
+/// @param of_key   numbers that each key needs
+/// @param pointer  of the sampler
+/// @return         numbers an element
+int check_output(const GltfDocument& document, const tinygltf::AnimationSampler& sampler,
+                 std::size_t of_key, const std::string& pointer) {
+  const std::string place = pointer + "/output";
+  const std::size_t keys = accessor_count(document, sampler.input, pointer + "/input");
+  const std::size_t count = accessor_count(document, sampler.output, place);
+  const int width = accessor_columns(document, sampler.output, place);
+  // Counts are below 2^32 each: products cannot overflow.
+  if (count * static_cast<std::size_t>(width) == keys * of_key) return width;
+  fail_at(document, place, "gltf.accessor",
+          fmt::format("the output has {} elements of {} numbers; {} keys need {} numbers each",
+                      count, width, keys, of_key));
+}
+
 }  // namespace
 
 AnimationCurve read_curve(const GltfDocument& document, int animation, int sampler, int columns) {
@@ -59,18 +77,13 @@ AnimationCurve read_curve(const GltfDocument& document, int animation, int sampl
   const tinygltf::AnimationSampler& source = samplers[static_cast<std::size_t>(sampler)];
   AnimationCurve curve;
   curve.interpolation = interpolation_of(source.interpolation);
+  const std::size_t parts = curve.interpolation == Interpolation::CubicSpline ? 3 : 1;
+  const int width =
+      check_output(document, source, static_cast<std::size_t>(columns) * parts, pointer);
   curve.times = read_floats(document, source.input, 1, pointer + "/input");
   check_times(document, curve.times, pointer + "/input");
-  const int width = accessor_columns(document, source.output, pointer + "/output");
   const std::vector<float> numbers =
       read_floats(document, source.output, width, pointer + "/output");
-  const std::size_t parts = curve.interpolation == Interpolation::CubicSpline ? 3 : 1;
-  const std::size_t expected = curve.times.size() * static_cast<std::size_t>(columns) * parts;
-  if (numbers.size() != expected) {
-    fail_at(document, pointer + "/output", "gltf.accessor",
-            fmt::format("the output has {} numbers; {} keys of {} need {}", numbers.size(),
-                        curve.times.size(), columns, expected));
-  }
   const auto keys = static_cast<Eigen::Index>(curve.times.size());
   if (parts == 1) {
     curve.values = Eigen::Map<const Rows>(numbers.data(), keys, columns);

@@ -9,6 +9,7 @@
 #include "morphbake/diagnostics/problem.h"
 #include "morphbake/files/files.h"
 #include "morphbake/gltf/size_limits.h"
+#include "morphbake/gltf/uri.h"
 #include "morphbake/json/explain.h"
 #include "morphbake/json/schema.h"
 
@@ -92,7 +93,10 @@ void check_images(const GltfDocument& document) {
   for (std::size_t i = 0; images != document.json.end() && i < images->size(); ++i) {
     const Json& image = (*images)[i];
     const std::string pointer = array_pointer("images", i);
-    if (image.contains("uri")) continue;
+    if (image.contains("uri")) {
+      if (!image.contains("bufferView")) continue;
+      fail_at(document, pointer, "gltf.invalid", "the image has both uri and bufferView");
+    }
     if (!image.contains("bufferView")) {
       fail_at(document, pointer, "gltf.invalid", "the image has neither uri nor bufferView");
     }
@@ -141,7 +145,7 @@ void check_uris(const GltfDocument& document, const char* array) {
     const Json& item = (*items)[i];
     if (!item.is_object() || !item.contains("uri") || !item["uri"].is_string()) continue;
     const std::string uri = item["uri"];
-    if (uri.compare(0, 5, "data:") == 0) continue;
+    if (is_data_uri(uri)) continue;
     const std::string pointer = array_pointer(array, i) + "/uri";
     const fs::path target = inside_folder(document.file.parent_path(), uri_path(uri));
     if (target.empty()) {

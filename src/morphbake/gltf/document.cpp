@@ -3,13 +3,15 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cstdint>
 #include <cstring>
+#include <utility>
+#include <vector>
 
 #include "morphbake/diagnostics/problem.h"
 #include "morphbake/files/files.h"
 #include "morphbake/gltf/check_document.h"
+#include "morphbake/gltf/resources.h"
 #include "morphbake/gltf/size_limits.h"
 #include "morphbake/gltf/unpack.h"
 
@@ -18,7 +20,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// tinygltf counts bytes in 32 bits.
+// A .glb counts its bytes in 32 bits.
 constexpr std::uintmax_t kFileSizeLimit = (std::uintmax_t{1} << 32) - 1;
 
 std::uint32_t read_u32(const std::string& bytes, std::size_t offset) {
@@ -67,35 +69,6 @@ Json parse_source_json(const GltfDocument& document, const std::string& text) {
   }
 }
 
-bool file_exists(const std::string& name, void* user) {
-  const auto& folder = *static_cast<const fs::path*>(user);
-  return !inside_folder(folder, name).empty();
-}
-
-std::string same_path(const std::string& name, void*) { return name; }
-
-bool read_whole_file(std::vector<unsigned char>* out, std::string* error, const std::string& name,
-                     void* user) {
-  const auto& folder = *static_cast<const fs::path*>(user);
-  try {
-    const std::string bytes = read_file(inside_folder(folder, name), kFileSizeLimit);
-    out->assign(bytes.begin(), bytes.end());
-    return true;
-  } catch (const BakeError& missing) {
-    *error = missing.what();
-    return false;
-  }
-}
-
-/// Images are kept as the bytes they are; nothing is decoded here.
-// NOLINTNEXTLINE(readability-function-size): tinygltf says which parameters
-bool keep_image(tinygltf::Image* image, int, std::string*, std::string*, int, int,
-                const unsigned char* bytes, int size, void*) {
-  image->as_is = true;
-  image->image.assign(bytes, bytes + size);
-  return true;
-}
-
 /// The binary chunk of a .glb whose JSON chunk was checked, or nothing.
 std::string_view binary_chunk(const GltfDocument& document, const std::string& bytes) {
   constexpr std::size_t kHeader = 12, kChunkHeader = 8;
@@ -109,78 +82,89 @@ std::string_view binary_chunk(const GltfDocument& document, const std::string& b
                         length, bytes.size() - at - kChunkHeader),
             "the file was cut off or damaged; export or copy it again");
   }
+  if (bytes.compare(at + 4, 4, "JSON") == 0) {
+    fail_at(document, "", "gltf.invalid", "the .glb has two JSON chunks",
+            "its exporter is at fault; export it again");
+  }
   const bool is_bin = bytes.compare(at + 4, 4, std::string_view("BIN\0", 4)) == 0;
   return is_bin ? std::string_view(bytes).substr(at + kChunkHeader, length) : std::string_view();
 }
 
-/// The bytes of a buffer that has a URI.
-std::string uri_bytes(const GltfDocument& document, const std::string& uri, std::size_t index) {
-  if (!uri.starts_with("data:")) {
-    const fs::path folder = document.file.parent_path();
-    return read_file(inside_folder(folder, uri_path(uri)), kFileSizeLimit);
-  }
-  std::vector<unsigned char> bytes;
-  std::string mime_type;
-  if (!tinygltf::DecodeDataURI(&bytes, mime_type, uri, 0, false)) {
-    fail_at(document, fmt::format("/buffers/{}/uri", index), "gltf.invalid",
-            "the data URI cannot be decoded");
-  }
-  return {bytes.begin(), bytes.end()};
-}
+/// Fields of a JSON while others stand in for them: each keeps its place.
+class HiddenFields {
+ public:
+  HiddenFields() = default;
+  HiddenFields(const HiddenFields&) = delete;
+  HiddenFields& operator=(const HiddenFields&) = delete;
 
-/// The bytes of all buffers; none of one that only stands in for what is compressed.
-std::vector<std::string> buffers_of(const GltfDocument& document, std::string_view binary) {
-  std::vector<std::string> buffers;
-  const auto found = document.json.find("buffers");
-  for (std::size_t b = 0; found != document.json.end() && b < found->size(); ++b) {
-    const Json& buffer = (*found)[b];
-    std::string content;
-    if (buffer.contains("uri")) {
-      content = uri_bytes(document, buffer["uri"].get<std::string>(), b);
-    } else if (b == 0) {
-      content = binary;
+  ~HiddenFields() {
+    for (auto& [field, value] : hidden_) *field = std::move(value);
+  }
+
+  void hide(Json& field, Json stand_in) {
+    hidden_.emplace_back(&field, std::exchange(field, std::move(stand_in)));
+  }
+
+ private:
+  std::vector<std::pair<Json*, Json>> hidden_;
+};
+
+/// Calls visit(mesh, primitive, its indices) for each primitive that has indices.
+template <typename Visit>
+void for_each_indices(Json& json, const Visit& visit) {
+  const auto meshes = json.find("meshes");
+  for (std::size_t m = 0; meshes != json.end() && m < meshes->size(); ++m) {
+    Json& primitives = (*meshes)[m].at("primitives");
+    for (std::size_t p = 0; p < primitives.size(); ++p) {
+      const auto indices = primitives[p].find("indices");
+      if (indices != primitives[p].end()) visit(m, p, *indices);
     }
-    const auto size = buffer.at("byteLength").get<std::size_t>();
-    if (content.size() > size) content.resize(size);
-    buffers.push_back(std::move(content));
   }
-  return buffers;
 }
 
-void parse_model(GltfDocument& document, const std::string& bytes) {
-  fs::path folder = document.file.parent_path();
-  tinygltf::TinyGLTF parser;
-  parser.SetFsCallbacks({file_exists, same_path, read_whole_file, nullptr, &folder});
-  parser.SetImageLoader(keep_image, nullptr);
+/// The JSON as text for tinygltf: without URIs, which it reads in its own way, without what we keep
+/// and never look at, and without indices, which it wants to have a bufferView.
+std::string text_for_parser(Json& json) {
+  HiddenFields hidden;
+  for (const char* name : {"buffers", "images", "samplers", "cameras", "extensions", "extras"}) {
+    if (const auto found = json.find(name); found != json.end()) {
+      hidden.hide(*found, Json::array());
+    }
+  }
+  for_each_indices(json, [&](std::size_t, std::size_t, Json& at) { hidden.hide(at, -1); });
+  return json.dump();
+}
+
+/// The JSON, typed: all but buffers, images and what text_for_parser leaves out.
+tinygltf::Model parse_model(GltfDocument& document) {
+  const std::string text = text_for_parser(document.json);
+  tinygltf::Model model;
   std::string errors, warnings;
-  const auto size = static_cast<unsigned int>(bytes.size());
-  const bool parsed =
-      is_binary(bytes)
-          ? parser.LoadBinaryFromMemory(&document.model, &errors, &warnings,
-                                        reinterpret_cast<const unsigned char*>(bytes.data()), size,
-                                        "")
-          : parser.LoadASCIIFromString(&document.model, &errors, &warnings, bytes.data(), size, "");
-  if (parsed) return;
-  std::replace(errors.begin(), errors.end(), '\n', ' ');
-  errors.erase(errors.find_last_not_of(' ') + 1);
-  fail_at(document, "", "gltf.invalid", fmt::format("this is no valid glTF: {}", errors),
-          "the Khronos glTF validator lists what is wrong with a file");
+  if (!tinygltf::TinyGLTF().LoadASCIIFromString(&model, &errors, &warnings, text.data(),
+                                                static_cast<unsigned int>(text.size()), "")) {
+    std::replace(errors.begin(), errors.end(), '\n', ' ');
+    errors.erase(errors.find_last_not_of(' ') + 1);
+    fail_at(document, "", "gltf.invalid", fmt::format("this is no valid glTF: {}", errors),
+            "the Khronos glTF validator lists what is wrong with a file");
+  }
+  for_each_indices(document.json, [&](std::size_t mesh, std::size_t primitive, const Json& at) {
+    model.meshes[mesh].primitives[primitive].indices =
+        static_cast<int>(std::min<std::uint64_t>(at.get<std::uint64_t>(), INT32_MAX));
+  });
+  return model;
+}
+
+/// Replaces compressed geometry by the same uncompressed.
+void unpack(GltfDocument& document, std::vector<Bytes>& buffers) {
+  std::vector<std::string_view> texts;
+  for (const Bytes& buffer : buffers) texts.push_back(as_text(buffer));
+  const std::string unpacked = unpacked_glb(document, texts);
+  document.json = parse_source_json(document, json_chunk(document, unpacked));
+  const std::string_view binary = binary_chunk(document, unpacked);
+  buffers.assign(binary.empty() ? 0 : 1, {binary.begin(), binary.end()});
 }
 
 }  // namespace
-
-std::string uri_path(const std::string& uri) {
-  std::string text;
-  for (std::size_t i = 0; i < uri.size(); ++i) {
-    unsigned value = 0;
-    const char* digits = uri.data() + i + 1;
-    const bool escaped = uri[i] == '%' && i + 2 < uri.size() &&
-                         std::from_chars(digits, digits + 2, value, 16).ptr == digits + 2;
-    text += escaped ? static_cast<char>(value) : uri[i];
-    if (escaped) i += 2;
-  }
-  return text;
-}
 
 void fail_at(const GltfDocument& document, const std::string& pointer, const std::string& code,
              const std::string& message, const std::string& hint) {
@@ -205,14 +189,11 @@ GltfFile open_gltf_bytes(const std::string& bytes, const fs::path& name) {
   document->json =
       parse_source_json(*document, is_binary(bytes) ? json_chunk(*document, bytes) : bytes);
   check_document(*document, bytes.size());
-  const std::string_view binary = binary_chunk(*document, bytes);
-  if (is_packed(document->json)) {
-    const std::string unpacked = unpacked_glb(*document, buffers_of(*document, binary));
-    document->json = parse_source_json(*document, json_chunk(*document, unpacked));
-    parse_model(*document, unpacked);
-  } else {
-    parse_model(*document, bytes);
-  }
+  std::vector<Bytes> buffers = read_buffers(*document, binary_chunk(*document, bytes));
+  if (is_packed(document->json)) unpack(*document, buffers);
+  document->model = parse_model(*document);
+  for (Bytes& buffer : buffers) document->model.buffers.emplace_back().data = std::move(buffer);
+  document->model.images = read_images(*document);
   return document;
 }
 

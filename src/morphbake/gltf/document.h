@@ -18,11 +18,8 @@ namespace morphbake {
 struct GltfDocument {
   std::filesystem::path file;
   Json json;              ///< as it stands in the file: what is kept is kept from here
-  tinygltf::Model model;  ///< the same, typed, with the bytes of all buffers
+  tinygltf::Model model;  ///< the same, typed, with the bytes of all buffers and images
 };
-
-/// The relative path that a URI names: its percent-encoding removed.
-std::string uri_path(const std::string& uri);
 
 /// @throws BakeError `code` at `pointer` of the glTF's JSON
 [[noreturn]] void fail_at(const GltfDocument& document, const std::string& pointer,

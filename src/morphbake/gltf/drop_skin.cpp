@@ -19,7 +19,7 @@ void check_transform(const MorphWriting& writing) {
   const GltfDocument& document = writing.document;
   const auto node = static_cast<std::size_t>(writing.morph.node);
   const NodeOrder order = order_nodes(document, rest_transforms(document));
-  if (std::abs(order.to_scene[node].topLeftCorner<3, 3>().determinant()) > kFlattened) return;
+  if (is_invertible(order.to_scene[node])) return;
   fail_at(document, fmt::format("/nodes/{}", node), "gltf.singular-transform",
           "the first source is posed by its skeleton and loses its skin, but then the node's "
           "transform flattens the mesh",

@@ -1,12 +1,16 @@
 #include "morphbake/gltf/moment.h"
 
+#include <fmt/core.h>
+
 #include <Eigen/Geometry>
 #include <map>
 #include <string>
 
+#include "morphbake/gltf/accessors.h"
 #include "morphbake/gltf/animation_curve.h"
 #include "morphbake/gltf/names.h"
 #include "morphbake/gltf/nodes.h"
+#include "morphbake/gltf/size_limits.h"
 
 namespace morphbake {
 namespace {
@@ -24,6 +28,58 @@ int animation_of(const GltfDocument& document, const Moment& moment) {
 std::vector<double> as_vector(const Eigen::VectorXd& numbers) {
   return {numbers.data(), numbers.data() + numbers.size()};
 }
+
+/// What the samplers of an animation are at a moment, each read once however many channels it has.
+class SampledCurves {
+ public:
+  SampledCurves(const GltfDocument& document, int animation, double time)
+      : document_(document),
+        animation_(animation),
+        time_(time),
+        numbers_left_(most_curve_numbers(document)) {}
+
+  /// @throws BakeError as read_curve, "gltf.too-large"
+  const Eigen::VectorXd& rotation(int sampler) {
+    const auto [entry, is_new] = rotations_.try_emplace(sampler);
+    if (is_new) entry->second = rotation_at(curve(sampler, 4), time_).coeffs();
+    return entry->second;
+  }
+
+  /// Likewise, of a translation or scale.
+  const Eigen::VectorXd& vector(int sampler) {
+    const auto [entry, is_new] = vectors_.try_emplace(sampler);
+    if (is_new) entry->second = value_at(curve(sampler, 3), time_);
+    return entry->second;
+  }
+
+ private:
+  AnimationCurve curve(int sampler, int columns) {
+    const std::string pointer = fmt::format("/animations/{}/samplers/{}", animation_, sampler);
+    const auto& samplers =
+        document_.model.animations[static_cast<std::size_t>(animation_)].samplers;
+    if (sampler >= 0 && static_cast<std::size_t>(sampler) < samplers.size()) {
+      const int input = samplers[static_cast<std::size_t>(sampler)].input;
+      const std::size_t keys = accessor_count(document_, input, pointer + "/input");
+      take(keys * static_cast<std::size_t>(1 + columns), pointer);
+    }
+    return read_curve(document_, animation_, sampler, columns);
+  }
+
+  void take(std::size_t numbers, const std::string& pointer) {
+    if (numbers > numbers_left_) {
+      fail_at(document_, pointer, "gltf.too-large",
+              "the samplers of the animation ask for more numbers than the file has",
+              "samplers that share one long accessor need one of their own each");
+    }
+    numbers_left_ -= numbers;
+  }
+
+  const GltfDocument& document_;
+  int animation_ = 0;
+  double time_ = 0;
+  std::size_t numbers_left_ = 0;
+  std::map<int, Eigen::VectorXd> rotations_, vectors_;  // by sampler
+};
 
 }  // namespace
 
@@ -43,27 +99,24 @@ Eigen::VectorXd weights_at(const GltfDocument& document, int node, const Moment&
 
 std::vector<Eigen::Matrix4d> transforms_at(const GltfDocument& document, const Moment& moment) {
   const int animation = animation_of(document, moment);
+  SampledCurves curves(document, animation, moment.time);
   std::vector<Eigen::Matrix4d> locals = rest_transforms(document);
   const std::vector<tinygltf::Node>& nodes = document.model.nodes;
   std::map<std::size_t, MovedNode> moved;
   for (const tinygltf::AnimationChannel& channel :
        document.model.animations[static_cast<std::size_t>(animation)].channels) {
     const auto node = static_cast<std::size_t>(channel.target_node);
-    if (channel.target_node < 0 || node >= nodes.size() || channel.target_path == "weights") {
-      continue;
-    }
+    const std::string& path = channel.target_path;
+    const bool moves = path == "translation" || path == "rotation" || path == "scale";
+    if (channel.target_node < 0 || node >= nodes.size() || !moves) continue;
     const tinygltf::Node& rest = nodes[node];
     MovedNode& at = moved.try_emplace(node, MovedNode{rest.translation, rest.rotation, rest.scale})
                         .first->second;
-    if (channel.target_path == "rotation") {
-      const Eigen::Vector4d xyzw =
-          rotation_at(read_curve(document, animation, channel.sampler, 4), moment.time).coeffs();
-      at.rotation = as_vector(xyzw);
-      continue;
+    if (path == "rotation") {
+      at.rotation = as_vector(curves.rotation(channel.sampler));
+    } else {
+      (path == "scale" ? at.scale : at.translation) = as_vector(curves.vector(channel.sampler));
     }
-    const Eigen::VectorXd numbers =
-        value_at(read_curve(document, animation, channel.sampler, 3), moment.time);
-    (channel.target_path == "scale" ? at.scale : at.translation) = as_vector(numbers);
   }
   for (const auto& [node, at] : moved) {
     locals[node] = transform_of(at.translation, at.rotation, at.scale);

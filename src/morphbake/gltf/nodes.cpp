@@ -150,14 +150,17 @@ std::vector<int> with_chosen_mesh(const GltfDocument& document, const MeshChoice
 }
 
 void check_transform(const GltfDocument& document, const MeshNode& at) {
-  const double determinant = at.to_scene.topLeftCorner<3, 3>().determinant();
-  if (std::abs(determinant) > kFlattened) return;
+  if (is_invertible(at.to_scene)) return;
   fail_at(document, fmt::format("/nodes/{}", at.node), "gltf.singular-transform",
           "the node's transform flattens the mesh (determinant 0)",
           "apply the transform and export again");
 }
 
 }  // namespace
+
+bool is_invertible(const Eigen::Matrix4d& transform) {
+  return std::abs(transform.topLeftCorner<3, 3>().determinant()) > 1e-30;
+}
 
 Eigen::Matrix4d transform_of(const std::vector<double>& translation,
                              const std::vector<double>& rotation,
@@ -207,10 +210,11 @@ MeshNode choose_mesh_node(const GltfDocument& document, const MeshChoice& choice
   const std::vector<int> nodes =
       with_chosen_mesh(document, choice, candidates(document, choice, order));
   if (nodes.size() > 1 && ambiguity == Ambiguity::Refuse) {
-    fail_at(document, fmt::format("/nodes/{}", nodes[1]), "gltf.several-meshes",
-            fmt::format("{} nodes of the scene have a mesh", nodes.size()),
-            fmt::format("choose one with \"node\" or \"mesh\" (in a command, --node); nodes are: {}",
-                        shown_nodes(document, nodes)));
+    fail_at(
+        document, fmt::format("/nodes/{}", nodes[1]), "gltf.several-meshes",
+        fmt::format("{} nodes of the scene have a mesh", nodes.size()),
+        fmt::format("choose one with \"node\" or \"mesh\" (in a command, --node); nodes are: {}",
+                    shown_nodes(document, nodes)));
   }
   const tinygltf::Node& node = document.model.nodes[static_cast<std::size_t>(nodes[0])];
   MeshNode at{nodes[0], node.mesh, order.to_scene[static_cast<std::size_t>(nodes[0])]};
@@ -218,7 +222,9 @@ MeshNode choose_mesh_node(const GltfDocument& document, const MeshChoice& choice
     fail_at(document, fmt::format("/nodes/{}/mesh", at.node), "gltf.invalid",
             fmt::format("mesh {} does not exist", at.mesh));
   }
-  if (node.skin >= 0) at.to_scene = joint_transforms(document, node.skin, order.to_scene).front();
+  if (node.skin >= 0) {
+    at.to_scene = bound_to_scene(joint_transforms(document, node.skin, order.to_scene));
+  }
   check_transform(document, at);
   return at;
 }

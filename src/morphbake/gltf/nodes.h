@@ -10,9 +10,6 @@
 
 namespace morphbake {
 
-/// A transform whose determinant is not larger flattens what it moves.
-constexpr double kFlattened = 1e-30;
-
 struct MeshNode {
   int node = 0;
   int mesh = 0;
@@ -38,6 +35,9 @@ std::vector<Eigen::Matrix4d> rest_transforms(const GltfDocument& document);
 /// Translation, rotation and scale as one matrix; what is empty is the identity.
 Eigen::Matrix4d transform_of(const std::vector<double>& translation,
                              const std::vector<double>& rotation, const std::vector<double>& scale);
+
+/// Whether a transform flattens nothing.
+bool is_invertible(const Eigen::Matrix4d& transform);
 
 /// What is to be done when several nodes could be meant.
 enum class Ambiguity { Refuse, TakeFirst };

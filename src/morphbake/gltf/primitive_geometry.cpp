@@ -12,19 +12,14 @@ namespace {
 
 using Attributes = std::map<std::string, int>;
 
-/// An attribute of three numbers a vertex, or no rows.
+/// An attribute of three numbers a vertex, or no rows. What has another number of them is not read.
 Float3s read_vectors(const GltfDocument& document, const Attributes& attributes,
-                     const std::string& name, const std::string& pointer) {
+                     const std::string& name, std::size_t vertices, const std::string& pointer) {
   const auto found = attributes.find(name);
   if (found == attributes.end()) return {};
-  return read_float3s(document, found->second, pointer + "/" + name);
-}
-
-void check_rows(const GltfDocument& document, Eigen::Index rows, Eigen::Index vertices,
-                const std::string& pointer) {
-  if (rows == 0 || rows == vertices) return;
-  fail_at(document, pointer, "gltf.accessor",
-          fmt::format("the attribute has {} elements for {} positions", rows, vertices));
+  const std::string place = pointer + "/" + name;
+  check_count(document, found->second, vertices, place);
+  return read_float3s(document, found->second, place);
 }
 
 /// The vertices in the order in which triangles take them.
@@ -99,12 +94,11 @@ PrimitiveGeometry read_primitive_geometry(const GltfDocument& document,
     fail_at(document, attributes, "gltf.unsupported-primitive", "the primitive has no POSITION");
   }
   PrimitiveGeometry geometry;
-  geometry.positions = read_vectors(document, primitive.attributes, "POSITION", attributes);
-  geometry.normals = read_vectors(document, primitive.attributes, "NORMAL", attributes);
-  const Eigen::Index vertices = geometry.positions.rows();
-  check_rows(document, geometry.normals.rows(), vertices, attributes + "/NORMAL");
-  geometry.triangles =
-      read_triangles(document, primitive, static_cast<std::size_t>(vertices), pointer);
+  geometry.positions =
+      read_float3s(document, primitive.attributes.at("POSITION"), attributes + "/POSITION");
+  const auto vertices = static_cast<std::size_t>(geometry.positions.rows());
+  geometry.normals = read_vectors(document, primitive.attributes, "NORMAL", vertices, attributes);
+  geometry.triangles = read_triangles(document, primitive, vertices, pointer);
   return geometry;
 }
 
@@ -112,11 +106,9 @@ TargetGeometry read_target(const GltfDocument& document, const tinygltf::Primiti
                            std::size_t target, Eigen::Index vertices, const std::string& pointer) {
   const std::string place = fmt::format("{}/targets/{}", pointer, target);
   const Attributes& attributes = primitive.targets[target];
-  TargetGeometry geometry{read_vectors(document, attributes, "POSITION", place),
-                          read_vectors(document, attributes, "NORMAL", place)};
-  check_rows(document, geometry.positions.rows(), vertices, place + "/POSITION");
-  check_rows(document, geometry.normals.rows(), vertices, place + "/NORMAL");
-  return geometry;
+  const auto count = static_cast<std::size_t>(vertices);
+  return {read_vectors(document, attributes, "POSITION", count, place),
+          read_vectors(document, attributes, "NORMAL", count, place)};
 }
 
 std::size_t target_count(const GltfDocument& document, int mesh) {

@@ -8,11 +8,16 @@
 #include <string>
 
 #include "morphbake/gltf/source_geometry.h"
+#include "morphbake/gltf/uri.h"
 
 namespace morphbake {
 namespace {
 
+// Of vertices and indices, each of which takes some hundred bytes until a mesh is welded.
 constexpr std::size_t kFewestElements = std::size_t{1} << 22;
+// Of three floats, which are only kept: 200 MB.
+constexpr std::size_t kFewestRows = std::size_t{1} << 24;
+constexpr std::size_t kRowsOfJoints = 6;  // four joints and weights, as they are read and as kept
 
 constexpr std::size_t kMostListBytes = std::size_t{1} << 28;
 constexpr std::size_t kSpareBytes = std::size_t{1} << 26;
@@ -27,27 +32,53 @@ std::size_t elements_of(const GltfDocument& document, int accessor) {
   return exists ? accessors[static_cast<std::size_t>(accessor)].count : 0;
 }
 
-/// Those of POSITION; other attributes have as many.
-std::size_t positions_of(const GltfDocument& document,
-                         const std::map<std::string, int>& attributes) {
-  const auto position = attributes.find("POSITION");
-  return position == attributes.end() ? 0 : elements_of(document, position->second);
+using Attributes = std::map<std::string, int>;
+
+/// What a primitive asks for.
+struct MeshSize {
+  std::size_t elements = 0;  ///< vertices and indices
+  std::size_t rows = 0;      ///< of three numbers each
+};
+
+std::size_t buffer_bytes(const GltfDocument& document) {
+  std::size_t bytes = 0;
+  for (const tinygltf::Buffer& buffer : document.model.buffers) bytes += buffer.data.size();
+  return bytes;
 }
 
-/// Entries of a list, 0 when it is none.
-std::size_t length_of(const Json& owner, const char* list) {
-  if (!owner.is_object()) return 0;
+/// A list, or an empty one: objects find their fields one by one, so each list is looked up once.
+const Json& list_of(const Json& owner, const char* list) {
+  static const Json none = Json::array();
+  if (!owner.is_object()) return none;
   const auto found = owner.find(list);
-  return found != owner.end() && found->is_array() ? found->size() : 0;
+  return found != owner.end() && found->is_array() ? *found : none;
 }
+
+std::size_t length_of(const Json& owner, const char* list) { return list_of(owner, list).size(); }
 
 /// Entries of the lists that are in the entries of a list.
 std::size_t length_within(const Json& json, const char* outer, const char* inner) {
   std::size_t length = 0;
-  for (std::size_t i = 0; i < length_of(json, outer); ++i) {
-    length += length_of(json[outer][i], inner);
-  }
+  for (const Json& owner : list_of(json, outer)) length += length_of(owner, inner);
   return length;
+}
+
+MeshSize mesh_size(const GltfDocument& document, const tinygltf::Primitive& primitive) {
+  MeshSize size;
+  const auto count = [&](const Attributes& attributes, const std::string& name) {
+    const auto found = attributes.find(name);
+    return found == attributes.end() ? 0 : elements_of(document, found->second);
+  };
+  size.elements =
+      elements_of(document, primitive.indices) + count(primitive.attributes, "POSITION");
+  for (const auto& target : primitive.targets) {
+    size.rows += count(target, "POSITION") + count(target, "NORMAL");
+  }
+  for (std::size_t set = 0;; ++set) {
+    const auto joints = primitive.attributes.find(fmt::format("JOINTS_{}", set));
+    if (joints == primitive.attributes.end()) return size;
+    size.rows += kRowsOfJoints * elements_of(document, joints->second);
+  }
 }
 
 }  // namespace
@@ -92,29 +123,29 @@ void check_list_sizes(const GltfDocument& document) {
 void check_buffer_sizes(const GltfDocument& document, std::size_t file_bytes) {
   std::map<std::string, std::size_t> named;  // files beside the glTF, each once
   std::size_t bytes = file_bytes, asked = 0;
+  // Of a buffer's file its byteLength is read, of an image's all.
   const auto add = [&](const Json& item) {
-    if (!item.contains("uri")) return;
-    const auto& uri = item["uri"].get_ref<const std::string&>();
-    if (uri.starts_with("data:")) return;
-    const std::filesystem::path file = document.file.parent_path() / uri_path(uri);
+    const auto uri = item.find("uri");
+    if (uri == item.end() || is_data_uri(uri->get_ref<const std::string&>())) return;
+    const std::filesystem::path file =
+        document.file.parent_path() / uri_path(uri->get_ref<const std::string&>());
     std::error_code error;
-    const std::uintmax_t size = std::filesystem::file_size(file, error);
+    std::uintmax_t size = std::filesystem::file_size(file, error);
     if (error) return;  // told where it is opened
-    asked += size;
     if (named.emplace(file.lexically_normal().string(), size).second) bytes += size;
-  };
-  for (const char* list : {"buffers", "images"}) {
-    for (std::size_t i = 0; i < length_of(document.json, list); ++i) add(document.json[list][i]);
-  }
-  for (std::size_t i = 0; i < length_of(document.json, "images"); ++i) {
-    const Json& image = document.json["images"][i];
-    const auto view = image.find("bufferView");
-    if (view == image.end() ||
-        view->get<std::size_t>() >= length_of(document.json, "bufferViews")) {
-      continue;
+    const auto length = item.find("byteLength");
+    if (length != item.end() && length->is_number()) {
+      size = std::min<std::uintmax_t>(size, length->get<std::uintmax_t>());
     }
-    asked +=
-        document.json["bufferViews"][view->get<std::size_t>()]["byteLength"].get<std::size_t>();
+    asked += size;
+  };
+  for (const Json& buffer : list_of(document.json, "buffers")) add(buffer);
+  const Json& views = list_of(document.json, "bufferViews");
+  for (const Json& image : list_of(document.json, "images")) {
+    add(image);
+    const auto view = image.find("bufferView");
+    if (view == image.end() || view->get<std::size_t>() >= views.size()) continue;
+    asked += views[view->get<std::size_t>()]["byteLength"].get<std::size_t>();
   }
   if (asked <= 2 * bytes + kSpareBytes) return;
   fail_at(document, "", "gltf.too-large",
@@ -123,24 +154,30 @@ void check_buffer_sizes(const GltfDocument& document, std::size_t file_bytes) {
           "let textures share one image");
 }
 
+std::size_t most_curve_numbers(const GltfDocument& document) {
+  // A key of an own sampler has at least a byte a number; its time may be that of many samplers.
+  return std::max(2 * buffer_bytes(document), kFewestRows);
+}
+
 void check_mesh_size(const GltfDocument& document, int mesh) {
-  std::size_t bytes = 0;
-  for (const tinygltf::Buffer& buffer : document.model.buffers) bytes += buffer.data.size();
-  const std::size_t limit = std::max(bytes, kFewestElements);
+  const std::size_t bytes = buffer_bytes(document);
+  const MeshSize limit{std::max(bytes, kFewestElements), std::max(bytes, kFewestRows)};
   const auto& primitives = document.model.meshes[static_cast<std::size_t>(mesh)].primitives;
-  std::size_t elements = 0;
+  MeshSize size;
   for (std::size_t p = 0; p < primitives.size(); ++p) {
-    const tinygltf::Primitive& primitive = primitives[p];
-    elements += elements_of(document, primitive.indices);
-    elements += positions_of(document, primitive.attributes);
-    for (const auto& target : primitive.targets) elements += positions_of(document, target);
-    // Counts are below 2^32 each: with a test a primitive the sum cannot overflow.
-    if (elements <= limit) continue;
+    const MeshSize added = mesh_size(document, primitives[p]);
+    size.elements += added.elements;
+    size.rows += added.rows;
+    // Counts are below 2^32 each, and JSON has 2^21 values: with a test a primitive no overflow.
+    if (size.elements <= limit.elements && size.rows <= limit.rows) continue;
+    const bool are_rows = size.elements <= limit.elements;
     fail_at(document, primitive_pointer(mesh, p), "gltf.too-large",
-            fmt::format("the mesh asks for more than {} vertices, indices and rows of targets "
-                        "together, out of {} bytes",
-                        limit, bytes),
-            "primitives that share one long accessor need one of their own each");
+            fmt::format(
+                "the mesh asks for more than {} {}, out of {} bytes",
+                are_rows ? limit.rows : limit.elements,
+                are_rows ? "rows of targets and joints together" : "vertices and indices together",
+                bytes),
+            "primitives or targets that share one long accessor need one of their own each");
   }
 }
 

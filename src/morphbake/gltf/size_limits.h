@@ -28,10 +28,15 @@ void check_buffer_sizes(const GltfDocument& document, std::size_t file_bytes);
 
 /// Checks what reading a mesh would take.
 ///
-/// Vertices, indices and rows of targets of all primitives together: as many as the file has bytes,
-/// or 4 million.
+/// Vertices and indices of all primitives together: as many as the buffers have bytes, or 4
+/// million. Rows of their targets' POSITION and NORMAL and (six each) of JOINTS_n: likewise, or 16
+/// million.
 /// @throws BakeError "gltf.too-large"
 void check_mesh_size(const GltfDocument& document, int mesh);
+
+/// Numbers that reading a pose may take of animation curves: those of all channels, since many
+/// could name the same. Twice as many as the buffers have bytes, or 16 million.
+std::size_t most_curve_numbers(const GltfDocument& document);
 
 /// What decompressing may ask for, in bytes of output.
 struct UnpackBudget {

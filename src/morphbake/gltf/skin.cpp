@@ -7,6 +7,7 @@
 #include <algorithm>
 
 #include "morphbake/gltf/accessors.h"
+#include "morphbake/gltf/nodes.h"
 
 namespace morphbake {
 namespace {
@@ -17,22 +18,25 @@ int attribute(const tinygltf::Primitive& primitive, const std::string& name) {
   return found == primitive.attributes.end() ? -1 : found->second;
 }
 
-/// Appends four joints and weights a vertex: one set of attributes.
+/// Four joints and weights a vertex: JOINTS_n and WEIGHTS_n of one n.
 struct BindingSet {
   std::vector<std::uint32_t> joints;
   std::vector<float> weights;
 };
 
+/// @param pointer  of the primitive's attributes
 BindingSet read_set(const GltfDocument& document, const tinygltf::Primitive& primitive, int set,
-                    const std::string& pointer) {
+                    std::size_t vertices, const std::string& pointer) {
   const std::string joints = fmt::format("JOINTS_{}", set);
   const std::string weights = fmt::format("WEIGHTS_{}", set);
-  const std::string place = pointer + "/attributes";
   if (attribute(primitive, weights) < 0) {
-    fail_at(document, place, "gltf.invalid", fmt::format("{} has no {}", joints, weights));
+    fail_at(document, pointer, "gltf.invalid", fmt::format("{} has no {}", joints, weights));
   }
-  return {read_joints(document, attribute(primitive, joints), place + "/" + joints),
-          read_floats(document, attribute(primitive, weights), 4, place + "/" + weights)};
+  for (const std::string& name : {joints, weights}) {
+    check_count(document, attribute(primitive, name), vertices, pointer + "/" + name);
+  }
+  return {read_joints(document, attribute(primitive, joints), pointer + "/" + joints),
+          read_floats(document, attribute(primitive, weights), 4, pointer + "/" + weights)};
 }
 
 }  // namespace
@@ -71,25 +75,24 @@ std::vector<Eigen::Matrix4d> joint_transforms(const GltfDocument& document, int 
   return transforms;
 }
 
+Eigen::Matrix4d bound_to_scene(const std::vector<Eigen::Matrix4d>& joints) {
+  const auto found = std::ranges::find_if(joints, is_invertible);
+  return found == joints.end() ? Eigen::Matrix4d::Identity() : *found;
+}
+
 SkinBinding read_binding(const GltfDocument& document, const tinygltf::Primitive& primitive,
                          std::size_t joint_count, const std::string& pointer) {
   const auto position = attribute(primitive, "POSITION");
   const std::size_t vertices = accessor_count(document, position, pointer + "/attributes/POSITION");
   std::vector<BindingSet> sets;
   while (attribute(primitive, fmt::format("JOINTS_{}", sets.size())) >= 0) {
-    sets.push_back(read_set(document, primitive, static_cast<int>(sets.size()), pointer));
-    const std::size_t joints = sets.back().joints.size() / 4;
-    const std::size_t weights = sets.back().weights.size() / 4;
-    if (joints == vertices && weights == vertices) continue;
-    fail_at(document,
-            fmt::format("{}/attributes/{}_{}", pointer, joints == vertices ? "WEIGHTS" : "JOINTS",
-                        sets.size() - 1),
-            "gltf.accessor",
-            fmt::format("the attribute has {} elements for {} positions",
-                        joints == vertices ? weights : joints, vertices));
+    sets.push_back(read_set(document, primitive, static_cast<int>(sets.size()), vertices,
+                            pointer + "/attributes"));
   }
   SkinBinding binding;
   binding.width = 4 * sets.size();
+  binding.joints.reserve(vertices * binding.width);
+  binding.weights.reserve(vertices * binding.width);
   for (std::size_t v = 0; v < vertices; ++v) {
     float sum = 0;
     for (const BindingSet& set : sets) {

@@ -19,6 +19,13 @@ namespace morphbake {
 std::vector<Eigen::Matrix4d> joint_transforms(const GltfDocument& document, int skin,
                                               const std::vector<Eigen::Matrix4d>& to_scene);
 
+/// Where a skinned mesh is as it was bound: what its joints do to it there. Joints may be flat, as
+/// a hidden limb's is; then the first that is not tells, and the identity when all are.
+///
+/// @param joints  of joint_transforms
+/// @return        from mesh space to the scene; is_invertible
+Eigen::Matrix4d bound_to_scene(const std::vector<Eigen::Matrix4d>& joints);
+
 /// How a primitive's vertices hang on the joints: JOINTS_n and WEIGHTS_n.
 struct SkinBinding {
   std::vector<std::uint32_t> joints;  ///< #V by `width`

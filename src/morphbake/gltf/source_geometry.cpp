@@ -98,8 +98,7 @@ void pose_mesh(const GltfDocument& document, const Moment& moment, SourceGeometr
   source.is_posed = true;
   const NodeOrder at_rest = order_nodes(document, rest_transforms(document));
   const Eigen::Matrix4d& of_node = at_rest.to_scene[static_cast<std::size_t>(source.node)];
-  const double determinant = of_node.topLeftCorner<3, 3>().determinant();
-  if (std::abs(determinant) > kFlattened) change_space(of_node, source);
+  if (is_invertible(of_node)) change_space(of_node, source);
 }
 
 void check_finite(const GltfDocument& document, const SourceGeometry& source) {

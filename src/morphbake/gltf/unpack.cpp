@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <map>
 #include <set>
 #include <utility>
 
@@ -26,7 +27,7 @@ void erase_extension(Json& owner, const char* name) {
   if (owner["extensions"].empty()) owner.erase("extensions");
 }
 
-/// Calls visit(view or primitive, its pointer) for each of a list of the JSON's root.
+/// Calls visit(primitive, its pointer) for each primitive of all meshes.
 template <typename Root, typename Visit>
 void for_each_primitive(Root& json, const Visit& visit) {
   const auto meshes = json.find("meshes");
@@ -41,7 +42,7 @@ void for_each_primitive(Root& json, const Visit& visit) {
 /// The JSON of what is being unpacked, and all that it is made from.
 struct Unpacking {
   const GltfDocument& document;
-  const std::vector<std::string>& buffers;
+  const std::vector<std::string_view>& buffers;
   GlbDraft draft;
   UnpackBudget budget;
   References references;
@@ -69,7 +70,7 @@ std::string_view packed_bytes(const Unpacking& at, const Json& range, const std:
             fmt::format("bytes {} to {} of buffer {} do not exist; it has {}", begin,
                         begin + length, buffer, size));
   }
-  return std::string_view(at.buffers[buffer]).substr(begin, length);
+  return at.buffers[buffer].substr(begin, length);
 }
 
 /// Puts bytes at the end of the buffer and lets `view` be them.
@@ -184,6 +185,15 @@ void give_indices(Unpacking& at, const std::vector<std::uint32_t>& indices, std:
   for (const char* bound : {"min", "max"}) accessor.erase(bound);  // of indices none are needed
 }
 
+/// A JSON object finds its fields one by one, which takes forever in one with many.
+std::map<std::string, std::size_t> accessors_by_name(const Json& attributes) {
+  std::map<std::string, std::size_t> accessors;
+  for (const auto& [name, accessor] : attributes.items()) {
+    accessors.emplace(name, accessor.get<std::size_t>());
+  }
+  return accessors;
+}
+
 void unpack_primitive(Unpacking& at, Json& primitive, const std::string& owner,
                       std::set<std::size_t>& reused) {
   const Json* found = extension_of(primitive, kDraco);
@@ -198,15 +208,16 @@ void unpack_primitive(Unpacking& at, Json& primitive, const std::string& owner,
   }
   std::vector<PackedAttribute> asked;
   std::vector<std::size_t> accessors;
+  const std::map<std::string, std::size_t> own = accessors_by_name(primitive.at("attributes"));
   for (const auto& [name, id] : extension.at("attributes").items()) {
-    const auto attribute = primitive.at("attributes").find(name);
-    if (attribute == primitive["attributes"].end()) {
-      fail_at(at.document, pointer + "/attributes/" + name, "gltf.invalid",
+    const auto attribute = own.find(name);
+    if (attribute == own.end()) {
+      fail_at(at.document, child_pointer(pointer + "/attributes", name), "gltf.invalid",
               "the primitive itself has no such attribute");
     }
-    accessors.push_back(attribute->get<std::size_t>());
+    accessors.push_back(attribute->second);
     asked.push_back(
-        asked_of(accessor_at(at, accessors.back(), owner + "/attributes/" + name),
+        asked_of(accessor_at(at, accessors.back(), child_pointer(owner + "/attributes", name)),
                  static_cast<int>(std::min<std::int64_t>(id.get<std::int64_t>(), INT32_MAX))));
   }
   Json& indices = accessor_at(at, primitive["indices"].get<std::size_t>(), owner + "/indices");
@@ -260,14 +271,12 @@ bool is_packed(const Json& json) {
   return found;
 }
 
-std::string unpacked_glb(const GltfDocument& document, const std::vector<std::string>& buffers) {
+std::string unpacked_glb(const GltfDocument& document,
+                         const std::vector<std::string_view>& buffers) {
   std::size_t bytes = 0;
-  for (const std::string& buffer : buffers) bytes += buffer.size();
-  Unpacking at{document,
-               buffers,
-               join_buffers(document.json, {buffers.begin(), buffers.end()}),
-               UnpackBudget::of_file(bytes),
-               {}};
+  for (const std::string_view buffer : buffers) bytes += buffer.size();
+  Unpacking at{
+      document, buffers, join_buffers(document.json, buffers), UnpackBudget::of_file(bytes), {}};
   at.references = references_in(at.draft);
   unpack_views(at);
   std::set<std::size_t> reused;

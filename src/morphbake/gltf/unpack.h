@@ -3,6 +3,7 @@
 // Internal to gltf/: files with compressed geometry, as files without.
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "morphbake/gltf/document.h"
@@ -17,6 +18,7 @@ bool is_packed(const Json& json);
 ///
 /// @param buffers  bytes of the file's buffers
 /// @throws BakeError "gltf.meshopt", "gltf.draco", "gltf.invalid", "gltf.too-large"
-std::string unpacked_glb(const GltfDocument& document, const std::vector<std::string>& buffers);
+std::string unpacked_glb(const GltfDocument& document,
+                         const std::vector<std::string_view>& buffers);
 
 }  // namespace morphbake

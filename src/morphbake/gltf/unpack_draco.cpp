@@ -4,6 +4,7 @@
 #include <fmt/core.h>
 
 #include <cstdint>
+#include <map>
 #include <memory>
 
 #include "morphbake/gltf/packed_parts.h"
@@ -75,12 +76,24 @@ std::string numbers_of(const Place& place, const draco::Mesh& mesh,
   return bytes;
 }
 
-std::string bytes_of(const Place& place, const draco::Mesh& mesh, const PackedAttribute& asked) {
-  const draco::PointAttribute* attribute =
-      mesh.GetAttributeByUniqueId(static_cast<std::uint32_t>(asked.id));
-  if (attribute == nullptr) {
+using AttributesById = std::map<std::uint32_t, const draco::PointAttribute*>;
+
+/// draco::Mesh looks for an id among all of its attributes.
+AttributesById attributes_by_id(const draco::Mesh& mesh) {
+  AttributesById attributes;
+  for (int i = 0; i < mesh.num_attributes(); ++i) {
+    attributes.emplace(mesh.attribute(i)->unique_id(), mesh.attribute(i));
+  }
+  return attributes;
+}
+
+std::string bytes_of(const Place& place, const draco::Mesh& mesh, const AttributesById& attributes,
+                     const PackedAttribute& asked) {
+  const auto found = attributes.find(static_cast<std::uint32_t>(asked.id));
+  if (found == attributes.end()) {
     fail(place, fmt::format("the data has no attribute with the id {}", asked.id));
   }
+  const draco::PointAttribute* attribute = found->second;
   if (attribute->num_components() != asked.columns || mesh.num_points() != asked.count) {
     fail(place, fmt::format("attribute {} has {} elements of {} numbers, but its accessor has {} "
                             "of {}",
@@ -143,8 +156,9 @@ UnpackedPrimitive unpack_draco(const GltfDocument& document, std::string_view pa
     }
   }
   if (primitive.indices.size() != indices) fail(place, "the data has fewer triangles than it says");
+  const AttributesById by_id = attributes_by_id(*mesh);
   for (const PackedAttribute& attribute : attributes) {
-    primitive.attributes.push_back(bytes_of(place, *mesh, attribute));
+    primitive.attributes.push_back(bytes_of(place, *mesh, by_id, attribute));
   }
   return primitive;
 }

@@ -34,17 +34,6 @@ int append_scalars(GlbDraft& draft, const std::vector<float>& values, bool bound
   return append_accessor(draft, std::move(accessor));
 }
 
-/// What an image's bytes are; "" when they are nothing that glTF knows.
-std::string mime_type_of(const std::vector<unsigned char>& bytes) {
-  const std::string_view text(reinterpret_cast<const char*>(bytes.data()),
-                              std::min<std::size_t>(bytes.size(), 16));
-  if (text.starts_with("\x89PNG")) return "image/png";
-  if (text.starts_with("\xFF\xD8")) return "image/jpeg";
-  if (text.starts_with("RIFF") && text.substr(8).starts_with("WEBP")) return "image/webp";
-  if (text.starts_with("\xABKTX 20")) return "image/ktx2";
-  return "";
-}
-
 /// A .glb stands alone: images in files beside the source, or in data URIs, become bufferViews.
 void embed_images(const GltfDocument& document, GlbDraft& draft) {
   const auto images = draft.json.find("images");
@@ -55,7 +44,7 @@ void embed_images(const GltfDocument& document, GlbDraft& draft) {
     const std::vector<unsigned char>& bytes = document.model.images[i].image;
     image.erase("uri");
     image["bufferView"] = append_view(draft, bytes.data(), bytes.size(), BufferUse::Other);
-    if (const std::string type = mime_type_of(bytes); !type.empty()) image["mimeType"] = type;
+    image["mimeType"] = document.model.images[i].mimeType;
   }
 }
 

@@ -20,8 +20,8 @@ struct Image {
 ///
 /// @param name  where the bytes come from, for the error message: a file, or "face.glb#/images/0"
 /// @throws BakeError "image.unreadable" (neither PNG nor JPEG, damaged, cut short) or
-///         "image.too-large" (more than 16384 pixels a side), both before any pixel memory is
-///         allocated where the header shows it
+///         "image.too-large" (more than 16384 pixels a side or 64 million in all), both before any
+///         pixel memory is allocated where the header shows it
 Image decode_image(std::string_view bytes, const std::string& name);
 
 /// PNG bytes of `image`: no time stamp, the same for the same pixels.

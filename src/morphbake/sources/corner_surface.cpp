@@ -8,6 +8,7 @@
 #include <array>
 #include <utility>
 
+#include "morphbake/diagnostics/counted.h"
 #include "morphbake/diagnostics/problem.h"
 #include "morphbake/json/nearest.h"
 #include "morphbake/mesh/adjacency.h"
@@ -87,10 +88,6 @@ void turn(int triangle, CornerSurface& surface) {
   std::swap(corners[1], corners[2]);
 }
 
-std::string counted(std::size_t count, const char* thing) {
-  return fmt::format("{} {}{}", count, thing, count == 1 ? "" : "s");
-}
-
 Problem source_problem(const SourceMesh& source, Severity severity, const char* code,
                        std::string message, std::string hint) {
   const std::string pointer = fmt::format("/meshes/{}", source.geometry.mesh);
@@ -103,7 +100,7 @@ std::string repairs_text(const SurfaceRepairs& repairs) {
   std::vector<std::string> parts;
   const auto add = [&](int count, const char* what, const char* is_done) {
     if (count == 0) return;
-    parts.push_back(fmt::format("{} {} {}", counted(static_cast<std::size_t>(count), what),
+    parts.push_back(fmt::format("{} {} {}", counted(count, what, std::string(what) + "s"),
                                 count == 1 ? "is" : "are", is_done));
   };
   add(degenerate, "degenerate triangle", "left out");
@@ -145,6 +142,16 @@ CornerSurface surface_of_corners(const SourceMesh& source, const std::vector<int
     ++surface.repairs.turned;
   }
   return surface;
+}
+
+std::vector<int> vertices_of_render(const SourceMesh& source, const CornerSurface& surface) {
+  std::vector<int> vertices(static_cast<std::size_t>(source.positions.rows()), -1);
+  for (std::size_t c = 0; c < surface.vertex_of_corner.size(); ++c) {
+    const auto render = static_cast<std::size_t>(source.triangles.data()[c]);
+    const int vertex = surface.vertex_of_corner[c];
+    if (vertex >= 0) vertices[render] = vertex;
+  }
+  return vertices;
 }
 
 std::vector<int> render_corners(const SourceMesh& source, const CornerSurface& surface) {
@@ -193,7 +200,8 @@ std::vector<Problem> surface_warnings(const SourceMesh& first,
     warnings.push_back(source_problem(
         first, Severity::Warning, "connectivity.open-seams",
         fmt::format("{} of {} lie beside others but are not joined to them: first at {}",
-                    counted(seams.size(), "border edge"), sources, fmt::join(places, ", ")),
+                    counted(static_cast<int>(seams.size()), "border edge", "border edges"), sources,
+                    fmt::join(places, ", ")),
         "a morph can tear there; in Blender: Mesh > Clean Up > Merge by Distance joins them"));
   }
   return warnings;

@@ -42,6 +42,9 @@ std::vector<int> welded_corners(const SourceMesh& source);
 /// @see                   find_orientation
 CornerSurface surface_of_corners(const SourceMesh& source, const std::vector<int>& corner_classes);
 
+/// Vertex of the surface that each render vertex is, -1 where none.
+std::vector<int> vertices_of_render(const SourceMesh& source, const CornerSurface& surface);
+
 /// Render vertex of each corner of the surface.
 std::vector<int> render_corners(const SourceMesh& source, const CornerSurface& surface);
 

@@ -39,18 +39,6 @@ std::vector<Side> sorted_sides(const Triangles& triangles) {
   return sides;
 }
 
-/// Normals of all primitives one after the other, or no rows.
-Float3s render_normals(const SourceMesh& source) {
-  Float3s normals(source.positions.rows(), 3);
-  Eigen::Index row = 0;
-  for (const PrimitiveGeometry& primitive : source.geometry.primitives) {
-    if (primitive.normals.rows() == 0) return {};
-    normals.middleRows(row, primitive.normals.rows()) = primitive.normals;
-    row += primitive.normals.rows();
-  }
-  return row == normals.rows() ? normals : Float3s();
-}
-
 /// 0 where one of them has no direction.
 double angle_between(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
   return std::atan2(a.cross(b).norm(), a.dot(b));
@@ -91,7 +79,7 @@ struct Shading {
 std::vector<Eigen::Vector2i> find_hard_edges(const SourceMesh& source, const CornerSurface& surface,
                                              const Mesh& mesh) {
   const std::vector<Side> sides = sorted_sides(mesh.triangles);
-  const Shading shading{surface, render_corners(source, surface), render_normals(source)};
+  const Shading shading{surface, render_corners(source, surface), file_normals(source)};
   std::vector<Eigen::Vector2i> broken, broken_and_folded;
   std::size_t inner_edges = 0;
   for (std::size_t i = 0; i + 1 < sides.size(); ++i) {

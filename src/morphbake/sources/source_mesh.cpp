@@ -53,6 +53,17 @@ void check_digits(const SourceMesh& mesh) {
 
 }  // namespace
 
+Float3s file_normals(const SourceMesh& source) {
+  Float3s normals(source.positions.rows(), 3);
+  Eigen::Index begin = 0;
+  for (const PrimitiveGeometry& primitive : source.geometry.primitives) {
+    if (primitive.normals.rows() == 0) return {};
+    normals.middleRows(begin, primitive.normals.rows()) = primitive.normals;
+    begin += primitive.normals.rows();
+  }
+  return begin == normals.rows() ? normals : Float3s();
+}
+
 std::vector<int> weld_rows(const Positions& positions, int& welded_count) {
   const auto count = static_cast<std::size_t>(positions.rows());
   const auto row = [&](int i) {

@@ -32,6 +32,9 @@ SourceMesh load_source(const SourceRef& source);
 SourceMesh read_source(const std::string& name, const GltfFile& file,
                        const MeshChoice& choice = {});
 
+/// NORMAL of each render vertex, mesh space, or no rows when a primitive has none.
+Float3s file_normals(const SourceMesh& source);
+
 /// Vertex of each row, equal exactly when rows are; numbered by first appearance.
 std::vector<int> weld_rows(const Positions& positions, int& welded_count);
 

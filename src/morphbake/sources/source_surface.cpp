@@ -49,12 +49,7 @@ SourceSurface source_surface(const SourceMesh& source, const SourceRef& ref,
     report(observer, warning);
   }
   surface.mesh = mesh;
-  surface.vertex_of_render.assign(static_cast<std::size_t>(source.positions.rows()), -1);
-  for (std::size_t c = 0; c < corners.vertex_of_corner.size(); ++c) {
-    const auto render = static_cast<std::size_t>(source.triangles.data()[c]);
-    const int vertex = corners.vertex_of_corner[c];
-    if (vertex >= 0) surface.vertex_of_render[render] = vertex;
-  }
+  surface.vertex_of_render = vertices_of_render(source, corners);
   surface.render_of_corner = render_corners(source, corners);
   surface.hard_edges = find_hard_edges(source, corners, surface.mesh);
   return surface;

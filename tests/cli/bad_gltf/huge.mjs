@@ -1,5 +1,6 @@
 // Small files that ask for much: copies that multiply, lists of millions, depth.
-import { FLOAT, USHORT, addAccessor, binChunk, container, jsonChunk } from './good.mjs';
+import { FLOAT, UBYTE, USHORT, addAccessor, binChunk, container, jsonChunk } from './good.mjs';
+import { draco } from './packed.mjs';
 
 const MILLION = 1e6, BIG = 1 << 20;  // bytes of what is shared
 
@@ -14,6 +15,8 @@ const withZeros = (size, change) => (gltf) => {
 
 const vectors = (count) => ({ bufferView: 3, componentType: FLOAT, count, type: 'VEC3' });
 const LARGE = '[gltf.too-large]';
+
+const zeros = (type, componentType, count) => ({ componentType, count, type });
 
 /** The octahedron's JSON with `part` `count` times in the list `kind`, without making them all first. */
 const many = (kind, part, count) => (gltf) => {
@@ -55,6 +58,23 @@ export const baked = {
   }), LARGE],
   'one megabyte, 10,000 images': [withZeros(BIG, (g) => { g.images = new Array(10000).fill({ bufferView: 3, mimeType: 'image/png' }); }), LARGE],
   'one megabyte, 1,000 curves of weights': [samplers(1000, 100000, true), '#/animations/0/samplers', LARGE],
+  'a million zeros, 150 targets of normals alone': [(g) => {
+    g.accessors.push(zeros('VEC3', FLOAT, MILLION));
+    g.meshes[0].primitives = [{ attributes: { POSITION: 3 }, targets: new Array(150).fill({ NORMAL: 3 }) }];
+  }, '#/meshes/0/primitives/0', LARGE],
+  '300,000 zeros, 200 sets of joints': [(g) => {
+    const [POSITION, joints, weights] = [['VEC3', FLOAT], ['VEC4', UBYTE], ['VEC4', FLOAT]].map(([type, component]) =>
+      g.accessors.push(zeros(type, component, 3e5)) - 1);
+    const sets = Array.from({ length: 200 }, (_, i) => [[`JOINTS_${i}`, joints], [`WEIGHTS_${i}`, weights]]).flat();
+    g.meshes[0].primitives[0].attributes = { POSITION, ...Object.fromEntries(sets) };
+  }, '#/meshes/0/primitives/0', LARGE],
+  '100,000 names of Draco': [(g) => {
+    draco(Buffer.from('no Draco'))(g);
+    const names = Array.from({ length: 1e5 }, (_, i) => `_${i}`);
+    const [primitive] = g.meshes[0].primitives;
+    primitive.attributes = { ...Object.fromEntries(names.toReversed().map((name) => [name, 0])), POSITION: 0 };
+    primitive.extensions.KHR_draco_mesh_compression.attributes = Object.fromEntries(names.map((name) => [name, 0]));
+  }, '#/meshes/0/primitives/0', '[gltf.draco]'],
   'one file, 10,000 buffers': [(g) => { g.buffers.push(...new Array(10000).fill({ byteLength: BIG, uri: 'megabyte.bin' })); }, LARGE],
 };
 
@@ -92,6 +112,11 @@ export const legal = {
   '100,000 children': [(g) => {
     g.nodes = [{ mesh: 0, children: Array.from({ length: 1e5 }, (_, i) => i + 1) }, ...new Array(1e5).fill({})];
   }],
+  '100,000 meshes beside 100,000 fields': [(g) => {
+    const fields = Object.fromEntries(Array.from({ length: 1e5 }, (_, i) => [`field ${i}`, 0]));
+    const meshes = [...g.meshes, ...new Array(1e5).fill({ primitives: [] })];
+    return JSON.stringify({ ...fields, ...g, meshes, animations: new Array(1e5).fill({ channels: [], samplers: [] }) });
+  }],
   '20,000 accessors of the same numbers': [(g) => { for (let i = 0; i < 20000; ++i) g.accessors.push(g.accessors[0]); }],
   '20,000 samplers of weights': [samplers(20000, 2)],
   '1,000 samplers of one long curve': [samplers(1000, 200000)],
@@ -104,4 +129,21 @@ export const legal = {
     addAccessor(g, new Float32Array(22.5e6 / 4), 'SCALAR', FLOAT);
     g.accessors.splice(3, 1);
   }],
+};
+
+/** The octahedron with 5000 nodes that curves of 100,000 keys move: one curve, or one each of the same numbers. */
+const moved = (samplers) => (g) => {
+  const input = addAccessor(g, Float32Array.from({ length: 1e5 }, (_, i) => i), 'SCALAR', FLOAT);
+  const output = addAccessor(g, new Float32Array(4e5).fill(0.5), 'VEC4', FLOAT);
+  g.nodes.push(...new Array(5000).fill({}));
+  const channels = Array.from({ length: 5000 }, (_, i) => ({ sampler: i % samplers, target: { node: 1 + i, path: 'rotation' } }));
+  g.animations = [{ samplers: new Array(samplers).fill({ input, output }), channels }];
+  g.skins = [{ joints: [1] }];
+  g.nodes[0].skin = 0;
+};
+
+/** Sources of which a recipe chooses a moment: legal as well. */
+export const chosen = {
+  'one curve for 5000 nodes': [{ animation: { time: 7 } }, moved(1)],
+  '5000 curves of the same numbers': [{ animation: { time: 7 } }, moved(5000)],
 };

@@ -163,6 +163,11 @@ export const meshoptCases = {
   'meshopt at 4 GB': refused(([v]) => { v.byteOffset = 4294967292; }, 'gltf.'),
   'meshopt of a missing buffer': refused(([v]) => { v.buffer = 9; }, 'gltf.'),
   'meshopt of its own fallback': refused(([v]) => { v.buffer = 0; }, 'gltf.'),
+  'plain view of a meshopt fallback': [meshopt((_, g) => { g.bufferViews.push({ buffer: 0, byteLength: 4 }); }), '#/bufferViews/2', '[gltf.invalid]'],
+  'image in a meshopt fallback': [meshopt((_, g) => {
+    g.bufferViews.push({ buffer: 0, byteLength: 48 });
+    g.images = [{ bufferView: 2, mimeType: 'image/png' }];
+  }), '#/bufferViews/2', '[gltf.invalid]'],
   'meshopt without a buffer': refused(([v]) => { delete v.buffer; }, '[gltf.missing-field]'),
   'text for meshopt': refused((_, g) => { g.bufferViews[0].extensions[MESHOPT] = 'x'; }, '[gltf.wrong-type]'),
   'meshopt of noise': [meshopt(() => {}, noise(300)), M(0), '[gltf.meshopt]'],

@@ -44,6 +44,7 @@ const primitives = {
   'text for a position': [set('meshes.0.primitives.0.attributes.POSITION', '0'), `${P}/attributes/POSITION`, '[gltf.wrong-type]'],
   'no positions': [set('meshes.0.primitives.0.attributes', { NORMAL: 1 }), 'POSITION', '[gltf.unsupported-primitive]'],
   'no attributes': [set('meshes.0.primitives.0.attributes', undefined), `${P}`, '[gltf.missing-field]'],
+  'emissive factor of two': [set('materials', [{ emissiveFactor: [1, 1] }]), '#/materials/0/emissiveFactor', BAD],
   'normals on one primitive only': [(g) => {
     g.meshes[0].primitives.push({ attributes: { POSITION: 0 }, indices: 2 });
   }, '[gltf.mixed-normals]'],

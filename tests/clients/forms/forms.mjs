@@ -241,8 +241,11 @@ function animate(document, name, node, path, times, values, interpolation) {
       ...(interpolation && { interpolation }) }] });
 }
 
+/** A bind matrix of a joint at height y. */
+const lowered = (y) => [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, -y, 0, 1];
+
 /** Two joints, of which the second is bent; a clip that bends it. */
-function skinned({ componentType, jointType, sum }) {
+function skinned({ componentType, jointType, sum, firstJoint = 0 }) {
   return async (which) => {
     const document = gltf.startDocument([{ ...SUBJECT, skin: 0, translation: [7, 7, 7] },
       { name: 'hip', translation: [0, 0.1, 0], children: [2] },
@@ -252,12 +255,11 @@ function skinned({ componentType, jointType, sum }) {
     const shares = ring('a').points.map(([x]) => Math.min(1, Math.max(0, (x + 1) / 2)));
     const rows = shares.map((share) => (sum === 1 ? [1 - Math.fround(share), Math.fround(share), 0, 0]
       : [sum - Math.round(sum * share), Math.round(sum * share), 0, 0]));
-    const joints = shares.map((share) => [0, share > 0 ? 1 : 0, 0, 0]);
+    const joints = shares.map((share) => [firstJoint, share > 0 ? firstJoint + 1 : 0, 0, 0]);
     primitive.attributes.JOINTS_0 = gltf.putAccessor(document, joints, jointType, {}, gltf.VERTICES);
     primitive.attributes.WEIGHTS_0 =
       gltf.putAccessor(document, rows, componentType, sum === 1 ? {} : { normalized: true }, gltf.VERTICES);
     gltf.putMesh(document, [primitive]);
-    const lowered = (y) => [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, -y, 0, 1];
     document.json.skins = [{ name: 'bones', joints: [1, 2], skeleton: 1,
       inverseBindMatrices: gltf.putAccessor(document, [lowered(0.1), lowered(0.5)], gltf.FLOAT) }];
     animate(document, 'nod', 2, 'rotation', [0, 1], [[0, 0, 0, 1], [0, 0, 0.479425539, 0.877582562]]);
@@ -271,6 +273,18 @@ const displaced = (hasTwin) => async (which) => {
   const { nodes, scenes } = document.json;
   Object.assign(nodes[0], { translation: [10, -20, 30], rotation: TURN, scale: [100, 100, 50] });
   if (hasTwin) scenes[0].nodes.push(nodes.push({ name: 'twin', mesh: 0, skin: 0 }) - 1);
+  return document;
+};
+
+/** A skin whose first joint hides what hangs on it: nothing. */
+const skinWithFlatJoint = async (which) => {
+  const document = await skinned({ componentType: gltf.FLOAT, jointType: gltf.UNSIGNED_SHORT, sum: 1, firstJoint: 1 })(which);
+  document.json.nodes.push({ name: 'hidden', scale: [0, 0, 0] });
+  document.json.scenes[0].nodes.push(3);
+  const [bones] = document.json.skins;
+  delete bones.skeleton;
+  bones.joints.unshift(3);
+  bones.inverseBindMatrices = gltf.putAccessor(document, [0, 0.1, 0.5].map(lowered), gltf.FLOAT);
   return document;
 };
 
@@ -516,6 +530,38 @@ async function external(which) {
   return { main: `${which} model.gltf`, files };
 }
 
+const ENDING = Buffer.from('0123456789abcdef0123456789abcdef');
+
+/** The beginnings of pictures in the formats of extensions; nobody here looks further. */
+const STRANGERS = [
+  ['EXT_texture_webp', 'image/webp', Buffer.concat([Buffer.from('RIFF\x28\0\0\0WEBPVP8L', 'latin1'), ENDING])],
+  ['KHR_texture_basisu', 'image/ktx2', Buffer.concat([Buffer.from('\xabKTX 20\xbb\r\n\x1a\n', 'latin1'), ENDING])],
+  ['MSFT_texture_dds', 'image/vnd-ms.dds', Buffer.concat([Buffer.from('DDS |\0\0\0', 'latin1'), ENDING])],
+  ['EXT_texture_avif', 'image/avif', Buffer.concat([Buffer.from('\0\0\0\x1cftypavif', 'latin1'), ENDING])],
+];
+
+/** Textures of extensions, each beside one of PNG for those who do not know it; `place` puts the image's bytes. */
+const strangers = (place) => async (which) => {
+  const document = gltf.startDocument([{ ...SUBJECT }]);
+  gltf.putMesh(document, STRANGERS.map((_, material) => ({ ...ringPrimitive(document, which), material })).slice(0, 1));
+  const { json } = document;
+  const files = {};
+  json.images = [{ uri: gltf.dataUri(drawChecks(8, [230, 200, 150], [90, 60, 40]), 'image/png') },
+    ...STRANGERS.map(([, mimeType, bytes], i) => ({ uri: place(files, bytes, mimeType, `${which}+${i}.${mimeType.split(/[/.]/).pop()}`), mimeType }))];
+  json.textures = STRANGERS.map(([name], i) => ({ source: 0, extensions: { [name]: { source: i + 1 } } }));
+  json.materials = STRANGERS.map((_, index) => ({ pbrMetallicRoughness: { baseColorTexture: { index } } }));
+  json.extensionsUsed = STRANGERS.map(([name]) => name);
+  const bin = gltf.chunkOf(document);
+  files[`${which}+points.bin`] = Buffer.concat([bin, ENDING]);  // longer than its buffer, which is legal
+  files[`${which}.gltf`] = gltf.toGltf(document, [{ byteLength: bin.length, uri: `${which}+points.bin` }]);
+  return { main: `${which}.gltf`, files };
+};
+
+const percentEncoded = (bytes, type) => `data:${type},${[...bytes].map((b) => `%${b.toString(16).padStart(2, '0')}`).join('')}`;
+
+const strangersBeside = strangers((files, bytes, type, name) => { files[name] = bytes; return name; });
+const strangersInUris = strangers((files, bytes, type, name) => (name.includes('+1') ? percentEncoded : gltf.dataUri)(bytes, type));
+
 /** A .glb whose indices lie in a file beside it. */
 async function besideGlb(which) {
   const document = await plainRing()(which);
@@ -557,6 +603,8 @@ export const FORMS = {
   'data-uris': { make: dataUris },
   'external': { make: external },
   'beside-glb': { make: besideGlb },
+  'pictures-beside': { make: strangersBeside },
+  'pictures-in-uris': { make: strangersInUris },
   'textured': { make: single(textured) },
   'texture-transform': { make: single(textureTransform) },
   'primitives': { make: single(pieces) },
@@ -572,6 +620,7 @@ export const FORMS = {
   'instanced': { make: single(instanced), select: { node: 'right' } },
   'skin': { make: single(skin) },
   'skin-floats': { make: single(skinned({ componentType: gltf.FLOAT, jointType: gltf.UNSIGNED_SHORT, sum: 1 })) },
+  'skin-flat-joint': { make: single(skinWithFlatJoint) },
   'targets-linear': { make: single(animatedTargets('LINEAR', LINEAR_WEIGHTS)) },
   'targets-step': { make: single(animatedTargets('STEP', LINEAR_WEIGHTS)) },
   'targets-cubic': { make: single(animatedTargets('CUBICSPLINE', CUBIC_WEIGHTS, { weights: [0, 0] })) },
