@@ -56,9 +56,10 @@ Scene overlapping_tracks() {
 
 Scene keyed_states() {
   Scene made = scene();
-  made.recipe.states = {{"a", {{1}, {0}, {0}}, {}},
-                        {"top", {{1}, {0}, {0}}, {{0, {{0}, {1}, {0}}, 0.7}, {1, {{0}, {0}, {1}}, 1}}},
-                        {"mix", {{0.2}, {0.3}, {0.5}}, {}}};
+  made.recipe.states = {
+      {"a", {{1}, {0}, {0}}, {}},
+      {"top", {{1}, {0}, {0}}, {{0, {{0}, {1}, {0}}, 0.7}, {1, {{0}, {0}, {1}}, 1}}},
+      {"mix", {{0.2}, {0.3}, {0.5}}, {}}};
   made.recipe.timeline.keys = {{0, 0, Ease::Linear},
                                {1, 1, Ease::Smoothstep},
                                {2, 2, Ease::Step},

@@ -40,9 +40,9 @@ void stage_maps(const SolvedRecipe& solved, const BakeOptions& options, const Ob
     const bool of_regions = kind == MapKind::Regions;
     const std::filesystem::path file =
         with_ending(recipe.outputs.front().file, of_regions ? ".regions.png" : ".shares.png");
-    outputs.stage(file, encode_png(of_regions
-                                       ? region_sheet(recipe, mesh, regions, options, observer)
-                                       : share_sheet(recipe, mesh, regions, timeline, options)));
+    outputs.stage(file,
+                  encode_png(of_regions ? region_sheet(recipe, mesh, regions, options, observer)
+                                        : share_sheet(recipe, mesh, regions, timeline, options)));
     first.report.previews.push_back(file);
   }
 }

@@ -36,7 +36,8 @@ struct Derivation {
 }
 
 /// d of a region that an edit names.
-const Eigen::VectorXd& still_distance(const Derivation& from, int region, const std::string& field) {
+const Eigen::VectorXd& still_distance(const Derivation& from, int region,
+                                      const std::string& field) {
   const RegionField& named = from.regions[static_cast<std::size_t>(region)];
   if (!named.moves && !named.floods) return fixed_distance(from.regions, region);
   fail(from, field, "recipe.moving-region",
@@ -124,8 +125,7 @@ Positions geometry_of(const Derivation& from, const Observer& observer) {
   if (const auto* mirror = std::get_if<MirrorSource>(&how)) {
     return mirror_of(from, *mirror, observer);
   }
-  return transformed(from.shape,
-                     transform_of(std::get<TransformSource>(how).movement, from.unit));
+  return transformed(from.shape, transform_of(std::get<TransformSource>(how).movement, from.unit));
 }
 
 /// The same problems, at the source's place in the recipe where they have none.

@@ -110,12 +110,11 @@ MorphWithMotion make_animated_output(const SolvedRecipe& solved, TargetKind targ
   const Timeline& timeline = solved.recipe.timeline;
   const SolvedTimeline& of = solved.timeline;
   const bool by_track = targets != TargetKind::Frames && of.shapes.base.rows() > 0;
-  const ReferenceMotion motion =
-      watched(by_track ? continuous_motion(of.shapes, *of.separable, timeline)
-                       : stepped_motion(of.frames),
-              observer);
-  const MorphBasis basis = by_track ? track_basis(of.shapes, *of.separable, timeline, options)
-                                    : frame_basis(of.frames);
+  const ReferenceMotion motion = watched(
+      by_track ? continuous_motion(of.shapes, *of.separable, timeline) : stepped_motion(of.frames),
+      observer);
+  const MorphBasis basis =
+      by_track ? track_basis(of.shapes, *of.separable, timeline, options) : frame_basis(of.frames);
   MeshMorph morph = make_mesh_morph(solved.first, solved.mesh, basis, solved.groups, motion);
   morph.animation_name = solved.recipe.name;
   return {std::move(morph), motion};

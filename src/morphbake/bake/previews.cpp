@@ -36,9 +36,7 @@ Problem as_shown(Problem problem, const PreviewPaths& paths) {
 std::vector<Image> render(const PreviewPaths& paths, const TurntableOptions& look,
                           const Observer& observer) {
   Observer renaming = observer;
-  renaming.on_problem = [&](const Problem& problem) {
-    report(observer, as_shown(problem, paths));
-  };
+  renaming.on_problem = [&](const Problem& problem) { report(observer, as_shown(problem, paths)); };
   try {
     return render_turntable(read_animated_mesh(paths.gltf_file, {.node = paths.node}), look,
                             renaming);

@@ -41,7 +41,8 @@ Eigen::RowVector3f linear(const std::array<std::uint8_t, 3>& srgb) {
   return {srgb_to_linear(srgb[0]), srgb_to_linear(srgb[1]), srgb_to_linear(srgb[2])};
 }
 
-/// The surface in given colours, about the origin and of size 1: the numbers of a picture are floats.
+/// The surface in given colours, about the origin and of size 1: the numbers of a picture are
+/// floats.
 AnimatedMesh painted(const Positions& positions, const Triangles& triangles, Colours colours) {
   const Eigen::RowVector3d low = positions.colwise().minCoeff();
   const Eigen::RowVector3d high = positions.colwise().maxCoeff();
@@ -88,8 +89,8 @@ Colours heat(const Eigen::VectorXd& d) {
 }
 
 /// Degrees around Y from which most of the inside is seen.
-double azimuth_of(const Positions& positions, const Triangles& triangles,
-                  const Eigen::VectorXd& d, double otherwise) {
+double azimuth_of(const Positions& positions, const Triangles& triangles, const Eigen::VectorXd& d,
+                  double otherwise) {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   double area = 0;
   for (Eigen::Index f = 0; f < triangles.rows(); ++f) {
@@ -139,8 +140,9 @@ Image region_sheet(const Recipe& recipe, const MorphableMesh& mesh, const Region
       const std::string when = field.moves    ? fmt::format(" {:.2f} s", moment.time)
                                : field.floods ? fmt::format(" {:.0f} %", 100 * way)
                                               : "";
-      const double azimuth = changes ? options.turntable.azimuth
-                                     : azimuth_of(positions, triangles, d, options.turntable.azimuth);
+      const double azimuth = changes
+                                 ? options.turntable.azimuth
+                                 : azimuth_of(positions, triangles, d, options.turntable.azimuth);
       cells.push_back(cell(painted(positions, triangles, heat(d)), azimuth,
                            recipe.regions[r].name + when, options));
     }
@@ -157,7 +159,8 @@ Colours mixed_colours(const TransitionState& T, Eigen::Index count) {
   for (Eigen::Index s = 0; s < T.rows(); ++s) {
     const Eigen::RowVector3f colour = linear(source_colour(static_cast<std::size_t>(s)));
     for (Eigen::Index block = 0; block < blocks; ++block) {
-      const Eigen::VectorXf share = T.row(s).segment(block * count, count).transpose().cast<float>();
+      const Eigen::VectorXf share =
+          T.row(s).segment(block * count, count).transpose().cast<float>();
       colours += share.cwiseMax(0).cwiseMin(1) * colour / static_cast<float>(blocks);
     }
   }

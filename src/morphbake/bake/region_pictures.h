@@ -7,8 +7,8 @@
 namespace morphbake {
 
 /// One picture of all regions: each on the shape that it is measured on, red inside, yellow where d
-/// is a half, grey outside, seen from where most of it is. Regions that move or flood are shown at a
-/// quarter, a half and three quarters of their way.
+/// is a half, grey outside, seen from where most of it is. Regions that move or flood are shown at
+/// a quarter, a half and three quarters of their way.
 ///
 /// @param recipe  with a region
 Image region_sheet(const Recipe& recipe, const MorphableMesh& mesh, const RegionFields& regions,

@@ -136,13 +136,12 @@ std::vector<bool> held_vertices(const Recipe& recipe, const RegionFields& region
       if (culprit.empty()) culprit = changed_by(changes, v);
     }
     if (culprit.empty()) continue;
-    problems.push_back(
-        {Severity::Error,
-         "recipe.held-region-changes",
-         {recipe.file.string(), child_pointer("/hold", i), 0, 0},
-         fmt::format("the region {} is held, but {} changes vertices inside of it",
-                     recipe.regions[static_cast<std::size_t>(region)].name, culprit),
-         "hold a smaller region, or let the edit's region end before it"});
+    problems.push_back({Severity::Error,
+                        "recipe.held-region-changes",
+                        {recipe.file.string(), child_pointer("/hold", i), 0, 0},
+                        fmt::format("the region {} is held, but {} changes vertices inside of it",
+                                    recipe.regions[static_cast<std::size_t>(region)].name, culprit),
+                        "hold a smaller region, or let the edit's region end before it"});
   }
   if (!problems.empty()) throw BakeError(std::move(problems));
   return held;
@@ -171,9 +170,8 @@ std::unique_ptr<DisplacementSystem> make_system(const Recipe& recipe, const Morp
                                                 const TimelineChanges& changes,
                                                 RightHandSide rule) {
   const Components components = connected_components(one_rings(mesh.connectivity));
-  Constraints constraints =
-      choose_constraints(mesh, components, changes.untouched,
-                         requested_constraints(recipe, mesh, regions, changes));
+  Constraints constraints = choose_constraints(
+      mesh, components, changes.untouched, requested_constraints(recipe, mesh, regions, changes));
   // The anchor is the paper's, whose right-hand side is eq. 6.
   const bool is_anchored = recipe.gauge.kind == Gauge::Kind::Anchor;
   return std::make_unique<DisplacementSystem>(mesh, std::move(constraints),
@@ -215,7 +213,8 @@ void check_still_regions(const Recipe& recipe, const RegionFields& regions) {
   for (std::size_t i = 0; i < recipe.outputs.size(); ++i) {
     const auto& still = recipe.outputs[i].still;
     if (!still || !std::holds_alternative<int>(still->at)) continue;
-    for (const Edit& edit : recipe.states[static_cast<std::size_t>(std::get<int>(still->at))].edits) {
+    for (const Edit& edit :
+         recipe.states[static_cast<std::size_t>(std::get<int>(still->at))].edits) {
       check(edit.region, true, child_pointer("/outputs", i) + "/still/at");
     }
   }

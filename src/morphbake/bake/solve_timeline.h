@@ -33,13 +33,12 @@ std::unique_ptr<SolvedTimeline> solve_timeline(const Recipe& recipe, const Morph
 ///
 /// @throws BakeError "recipe.held-region-changes", "recipe.moving-region", "recipe.needs-frames",
 ///         "options.cannot-hold"
-void check_timeline(const Recipe& recipe, const MorphableMesh& mesh,
-                    const RegionFields& regions, const SolveOptions& options);
+void check_timeline(const Recipe& recipe, const MorphableMesh& mesh, const RegionFields& regions,
+                    const SolveOptions& options);
 
 /// The shape of the timeline at `time`: #V by 3, scene space.
-Positions position_at(const Recipe& recipe, const MorphableMesh& mesh,
-                      const RegionFields& regions, const SolvedTimeline& solved,
-                      double time);
+Positions position_at(const Recipe& recipe, const MorphableMesh& mesh, const RegionFields& regions,
+                      const SolvedTimeline& solved, double time);
 
 /// Shape of one state, whose regions stand still, held and gauged for itself.
 ///

@@ -33,8 +33,8 @@ struct HandleTarget {
 
 /// Vertices of an edit that go where they are told.
 struct EditHandle {
-  int region = -1;  ///< its inside; -1: the vertex nearest to `at`
-  Place at;         ///< on the file from which the edited shape comes
+  int region = -1;                          ///< its inside; -1: the vertex nearest to `at`
+  Place at;                                 ///< on the file from which the edited shape comes
   std::variant<Movement, HandleTarget> to;  ///< movements are about the handle's own centre
 };
 
@@ -48,7 +48,7 @@ struct EditSource {
 /// The mirrored shape, left and right exchanged.
 struct MirrorSource {
   Eigen::Vector3d normal = Eigen::Vector3d::UnitX();  ///< of the plane
-  double offset = 0;   ///< of the plane along it, in scene units
+  double offset = 0;                                  ///< of the plane along it, in scene units
   int symmetric = -1;  ///< shape whose two sides are alike: tells which vertex is whose counterpart
 };
 
@@ -60,7 +60,7 @@ struct TransformSource {
 /// A source that is made from another.
 struct DerivedSource {
   std::string name;
-  int of = 0;    ///< shape: index of a source with a file, or their number plus that of a derived one
+  int of = 0;  ///< shape: index of a source with a file, or their number plus that of a derived one
   int root = 0;  ///< the source with a file from which it comes
   std::variant<BandSource, EditSource, MirrorSource, TransformSource> how;
 };

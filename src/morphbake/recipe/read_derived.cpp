@@ -40,8 +40,8 @@ Movement read_movement(Reading& reading, const Json& json, const std::string& po
     const Json& scale = json["scale"];
     movement.scale = scale.is_object() ? scale["factor"].get<double>() : scale.get<double>();
     if (scale.is_object()) {
-      movement.scale_along = read_direction(reading, scale, pointer + "/scale", "along",
-                                            Eigen::Vector3d::UnitY());
+      movement.scale_along =
+          read_direction(reading, scale, pointer + "/scale", "along", Eigen::Vector3d::UnitY());
     }
   }
   if (json.contains("rotate")) {
@@ -54,12 +54,11 @@ Movement read_movement(Reading& reading, const Json& json, const std::string& po
 
 HandleTarget read_target(Reading& reading, const Json& json, int root, const std::string& pointer) {
   if (json.is_array()) {
-    return {root, Eigen::Vector3d(json[0].get<double>(), json[1].get<double>(),
-                                  json[2].get<double>())};
+    return {root,
+            Eigen::Vector3d(json[0].get<double>(), json[1].get<double>(), json[2].get<double>())};
   }
   HandleTarget target;
-  target.source =
-      look_up(reading, reading.recipe.sources, "source", json["on"], pointer + "/on");
+  target.source = look_up(reading, reading.recipe.sources, "source", json["on"], pointer + "/on");
   target.at = read_place(reading, json["at"], target.source, pointer + "/at");
   return target;
 }
@@ -69,7 +68,8 @@ EditHandle read_handle(Reading& reading, const Json& json, int root, const std::
   EditHandle handle;
   handle.region = read_region_field(reading, json, pointer);
   if (json.contains("at")) handle.at = read_place(reading, json["at"], root, pointer + "/at");
-  const bool moves = json.contains("translate") || json.contains("rotate") || json.contains("scale");
+  const bool moves =
+      json.contains("translate") || json.contains("rotate") || json.contains("scale");
   if (json.contains("to") == moves) {
     complain(reading, moves ? "recipe.conflicting-fields" : "recipe.missing-field", pointer,
              moves ? "\"to\" excludes \"translate\", \"rotate\" and \"scale\""
@@ -80,7 +80,8 @@ EditHandle read_handle(Reading& reading, const Json& json, int root, const std::
     handle.to = read_target(reading, json["to"], root, pointer + "/to");
     if (handle.region >= 0) {
       complain(reading, "recipe.conflicting-fields", pointer + "/to",
-               "a region cannot go to one point", "move it by \"translate\", or name a point in \"at\"");
+               "a region cannot go to one point",
+               "move it by \"translate\", or name a point in \"at\"");
     }
   } else {
     handle.to = read_movement(reading, json, pointer);
@@ -164,10 +165,10 @@ bool complain_of_cycles(Reading& reading, const std::vector<std::string>& names,
     std::string chain;
     for (const int node : cycle) chain += names[static_cast<std::size_t>(node)] + " -> ";
     const std::string& first = names[static_cast<std::size_t>(cycle.front())];
-    complain(reading, "recipe.cycle", child_pointer("/sources", first),
-             fmt::format("the source {} is derived from itself: {}{}", shown(Json(first)), chain,
-                         first),
-             "one of these sources must have a file");
+    complain(
+        reading, "recipe.cycle", child_pointer("/sources", first),
+        fmt::format("the source {} is derived from itself: {}{}", shown(Json(first)), chain, first),
+        "one of these sources must have a file");
   }
   return !cycles.empty();
 }

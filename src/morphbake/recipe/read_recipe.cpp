@@ -60,7 +60,8 @@ void harmonise_axes(Recipe& recipe) {
     all.push_back(&state.mix);
     for (Edit& edit : state.edits) all.push_back(&edit.to);
   }
-  const bool any = std::any_of(all.begin(), all.end(), [](const Shares* s) { return s->cols() > 1; });
+  const bool any =
+      std::any_of(all.begin(), all.end(), [](const Shares* s) { return s->cols() > 1; });
   if (!any) return;
   for (Shares* shares : all) {
     if (shares->cols() == 1) *shares = shares->replicate(1, 3).eval();

@@ -10,8 +10,8 @@ namespace morphbake {
 namespace {
 
 /// The ways in which a region may be given.
-const std::vector<const char*> kKinds = {"ball",    "rings", "mask",  "scattered",
-                                         "spatial", "flood", "union", "intersection",
+const std::vector<const char*> kKinds = {"ball",       "rings",  "mask",   "scattered",
+                                         "spatial",    "flood",  "union",  "intersection",
                                          "difference", "invert", "rest_of"};
 
 std::string unknown_landmark_hint(const SourceRef& source, const std::string& name) {
@@ -68,8 +68,8 @@ RingsRegion read_rings(Reading& reading, const Json& json, const std::string& po
 }
 
 MaskRegion read_mask(Reading& reading, const Json& json, const std::string& pointer) {
-  check_one_of(reading, json, {"attribute", "material", "primitive", "image"},
-               "kind of mask", pointer);
+  check_one_of(reading, json, {"attribute", "material", "primitive", "image"}, "kind of mask",
+               pointer);
   MaskRegion mask;
   mask.source = read_on(reading, json, pointer);
   if (json.contains("attribute")) {

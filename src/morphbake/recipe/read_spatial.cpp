@@ -87,8 +87,8 @@ void read_spatial_shape(Reading& reading, const Json& json, const std::string& p
     region.shape = SphereShape{sphere.vector("centre"), sphere.number("radius")};
   } else if (json.contains("cylinder")) {
     const ShapeFields cylinder = of("cylinder");
-    Cylinder shape{cylinder.vector("centre"), cylinder.direction("axis"), cylinder.number("radius"),
-                   {}};
+    Cylinder shape{
+        cylinder.vector("centre"), cylinder.direction("axis"), cylinder.number("radius"), {}};
     if (cylinder.json.contains("length")) shape.length = cylinder.number("length");
     region.shape = shape;
   } else if (json.contains("ramp")) {
@@ -103,8 +103,8 @@ void read_spatial_shape(Reading& reading, const Json& json, const std::string& p
 
 SpatialRegion read_spatial(Reading& reading, const Json& json, const std::string& pointer) {
   check_one_of(reading, json,
-               {"half_space", "slab", "box", "sphere", "cylinder", "ramp", "expression"},
-               "shape", pointer);
+               {"half_space", "slab", "box", "sphere", "cylinder", "ramp", "expression"}, "shape",
+               pointer);
   SpatialRegion region;
   region.width = read_animated<double>(reading, json, pointer, "width", 0);
   const Json on = json.value("on", Json::array());

@@ -114,7 +114,8 @@ Edit read_edit(Reading& reading, const Json& json, const std::string& pointer) {
   }
   if (edit.fit != Fit::None && edit.to.cols() > 1) {
     complain(reading, "recipe.conflicting-fields", pointer + "/fit",
-             "shares an axis cannot be turned", "give one shape for all axes, or leave \"fit\" out");
+             "shares an axis cannot be turned",
+             "give one shape for all axes, or leave \"fit\" out");
   }
   return edit;
 }

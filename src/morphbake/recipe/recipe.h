@@ -98,9 +98,9 @@ struct State {
 };
 
 struct Key {
-  double time = 0;           ///< seconds
-  int state = 0;             ///< index into Recipe::states
-  Easing ease;               ///< of the segment that ends in this key
+  double time = 0;  ///< seconds
+  int state = 0;    ///< index into Recipe::states
+  Easing ease;      ///< of the segment that ends in this key
 };
 
 /// Either keys or tracks. Starts at 0; `duration` is the last key's time or at least the last

@@ -68,9 +68,11 @@ std::vector<EditToFit> edits_to_fit(Recipe& recipe) {
 
 [[noreturn]] void fail(const Recipe& recipe, const EditToFit& edit, const std::string& message,
                        const std::string& hint) {
-  throw BakeError(Problem{
-      Severity::Error, "recipe.cannot-fit", {recipe.file.string(), edit.pointer, 0, 0}, message,
-      hint});
+  throw BakeError(Problem{Severity::Error,
+                          "recipe.cannot-fit",
+                          {recipe.file.string(), edit.pointer, 0, 0},
+                          message,
+                          hint});
 }
 
 Positions fitted_shape(const Recipe& recipe, const MorphableMesh& mesh, const RegionFields& regions,
@@ -116,7 +118,8 @@ Positions fitted(const Positions& from, const Positions& to, const Eigen::Vector
   const Eigen::RowVector3d from_centre = w.transpose() * from, to_centre = w.transpose() * to;
   const Positions a = from.rowwise() - from_centre, b = to.rowwise() - to_centre;
   const Eigen::Matrix3d covariance = b.transpose() * w.asDiagonal() * a;
-  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(covariance, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(covariance,
+                                              Eigen::ComputeFullU | Eigen::ComputeFullV);
   const Eigen::Vector3d sigma = svd.singularValues();
   if (!(sigma(1) > 1e-9 * sigma(0))) return {};  // in one line: any turn about it fits
   Eigen::Vector3d sign = Eigen::Vector3d::Ones();

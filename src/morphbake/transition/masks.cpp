@@ -26,7 +26,7 @@ struct MaskCarrier {
   const MaskRegion& mask;
   const MorphableMesh& mesh;
   Location where;
-  Mesh surface = {};                  ///< of the source: its triangles that have an area
+  Mesh surface = {};                    ///< of the source: its triangles that have an area
   std::vector<int> file_triangle = {};  ///< triangle of `surface` -> of the file
 };
 
@@ -43,9 +43,7 @@ void keep_proper_triangles(MaskCarrier& carrier) {
   const Positions& positions = carrier.source.positions;
   const Triangles& triangles = carrier.source.triangles;
   for (int f = 0; f < triangles.rows(); ++f) {
-    const auto corner = [&](int k) -> Eigen::RowVector3d {
-      return positions.row(triangles(f, k));
-    };
+    const auto corner = [&](int k) -> Eigen::RowVector3d { return positions.row(triangles(f, k)); };
     const bool has_area = (corner(1) - corner(0)).cross(corner(2) - corner(0)).norm() > 0;
     if (has_area) carrier.file_triangle.push_back(f);
   }
@@ -101,8 +99,8 @@ double grey_at(const Image& image, const Eigen::Vector2d& uv) {
       const int rest = static_cast<int>(std::fmod(i, size));
       return static_cast<std::size_t>(rest < 0 ? rest + size : rest);
     };
-    const std::size_t texel = wrap(y, image.height) * static_cast<std::size_t>(image.width) +
-                              wrap(x, image.width);
+    const std::size_t texel =
+        wrap(y, image.height) * static_cast<std::size_t>(image.width) + wrap(x, image.width);
     const std::uint8_t* rgb = &image.rgb[3 * texel];
     return (rgb[0] + rgb[1] + rgb[2]) / (3 * 255.0);
   };
@@ -219,8 +217,7 @@ std::vector<Eigen::VectorXd> mask_values(const MorphableMesh& mesh, const Recipe
     if (mask == nullptr) continue;
     const Location where{recipe.file.string(),
                          child_pointer("/regions", recipe.regions[r].name) + "/mask", 0, 0};
-    values[r] =
-        values_of({originals[static_cast<std::size_t>(mask->source)], *mask, mesh, where});
+    values[r] = values_of({originals[static_cast<std::size_t>(mask->source)], *mask, mesh, where});
   }
   return values;
 }

@@ -77,8 +77,7 @@ Eigen::VectorXd distance_at(const RegionFields& fields, int region, const Region
 }
 
 const Eigen::VectorXd& fixed_distance(const RegionFields& fields, int region) {
-  const auto* fixed =
-      std::get_if<Eigen::VectorXd>(&fields[static_cast<std::size_t>(region)].form);
+  const auto* fixed = std::get_if<Eigen::VectorXd>(&fields[static_cast<std::size_t>(region)].form);
   assert(fixed != nullptr);
   return *fixed;
 }

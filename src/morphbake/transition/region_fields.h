@@ -46,7 +46,7 @@ struct RegionMoment {
 /// d of a region: 0 inside, 1 outside, between them across the soft ring.
 ///
 /// @return  #V, each in [0, 1]
-/// @throws BakeError "transition.expression" where an expression gives no number
+/// @throws BakeError "recipe.expression" where an expression gives no number
 Eigen::VectorXd distance_at(const RegionFields& fields, int region, const RegionMoment& moment);
 
 /// d of a region that neither moves nor floods.

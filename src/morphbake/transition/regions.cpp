@@ -116,8 +116,9 @@ class RegionBuilder {
     } else if (const auto* rings = std::get_if<RingsRegion>(&shape)) {
       Rings& found = plans_[region].rings;
       const Mesh& mesh = survey(rings->source).mesh;
-      found = find_rings(mesh, points(rings->source, rings->inner),
-                         points(rings->source, rings->outer), location_of(recipe_, region, "rings"));
+      found =
+          find_rings(mesh, points(rings->source, rings->inner), points(rings->source, rings->outer),
+                     location_of(recipe_, region, "rings"));
       ask_distance(region, rings->source, vertex_points(mesh, found.inner), rings->distance);
       ask_distance(region, rings->source, vertex_points(mesh, found.outer), rings->distance);
     }
@@ -188,18 +189,30 @@ class RegionBuilder {
     const auto missed = std::find(reached.begin(), reached.end(), false);
     if (missed == reached.end()) return;
     const auto label = static_cast<int>(missed - reached.begin());
-    const auto vertex =
-        std::find(components.label.begin(), components.label.end(), label) - components.label.begin();
+    const auto vertex = std::find(components.label.begin(), components.label.end(), label) -
+                        components.label.begin();
     const Eigen::RowVector3d at = mesh_.geometries.front().row(vertex);
-    throw BakeError(
-        Problem{Severity::Error, "recipe.unreached", location_of(recipe_, region, kind),
-                fmt::format("the surface has {} pieces, and no point of this region lies on the one "
-                            "at ({:.4g}, {:.4g}, {:.4g})",
-                            components.count, at.x(), at.y(), at.z()),
-                "give a point on each piece"});
+    throw BakeError(Problem{
+        Severity::Error, "recipe.unreached", location_of(recipe_, region, kind),
+        fmt::format("the surface has {} pieces, and no point of this region lies on the one "
+                    "at ({:.4g}, {:.4g}, {:.4g})",
+                    components.count, at.x(), at.y(), at.z()),
+        "give a point on each piece"});
+  }
+
+  void check_expression(std::size_t region, const SpatialRegion& spatial) {
+    const auto* expression = std::get_if<Expression>(&spatial.shape);
+    const std::string error = expression != nullptr ? expression_error(expression->text) : "";
+    if (error.empty()) return;
+    throw BakeError(Problem{
+        Severity::Error, "recipe.expression", location_of(recipe_, region, "spatial/expression"),
+        fmt::format("\"{}\" cannot be read: {}", expression->text, error),
+        "it has x, y, z and t, numbers, + - * / ^, comparisons, ?: and functions "
+        "such as sin(x), min(x, y)"});
   }
 
   RegionField spatial_field(std::size_t region, const SpatialRegion& spatial) {
+    check_expression(region, spatial);
     RegionField field;
     field.falloff = recipe_.regions[region].falloff;
     SpatialField form{spatial, {}};

@@ -15,7 +15,7 @@ namespace morphbake {
 /// @param recipe  whose places are positions (see with_positions)
 /// @param masks   one a region: what mask_values gave, or no rows
 /// @throws BakeError "transition.distance-failed", "recipe.ring", "recipe.unreached",
-///         "transition.expression"
+///         "recipe.expression"
 /// @see    Alexa 2003, sections 2.4, 5.1 to 5.3
 RegionFields region_fields(const MorphableMesh& mesh, const Recipe& recipe,
                            const std::vector<Eigen::VectorXd>& masks = {});

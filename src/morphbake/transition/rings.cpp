@@ -265,8 +265,8 @@ int nearest_corner(const Mesh& mesh, const SurfacePoint& at) {
 }
 
 PointSet vertex_points(const Mesh& mesh, const std::vector<int>& vertices) {
-  std::vector<std::pair<int, SurfacePoint>> corners(
-      static_cast<std::size_t>(mesh.positions.rows()), {-1, {}});
+  std::vector<std::pair<int, SurfacePoint>> corners(static_cast<std::size_t>(mesh.positions.rows()),
+                                                    {-1, {}});
   for (int f = 0; f < mesh.triangles.rows(); ++f) {
     for (int k = 0; k < 3; ++k) {
       auto& corner = corners[static_cast<std::size_t>(mesh.triangles(f, k))];
@@ -274,7 +274,8 @@ PointSet vertex_points(const Mesh& mesh, const std::vector<int>& vertices) {
     }
   }
   PointSet points;
-  for (const int vertex : vertices) points.push_back(corners[static_cast<std::size_t>(vertex)].second);
+  for (const int vertex : vertices)
+    points.push_back(corners[static_cast<std::size_t>(vertex)].second);
   return points;
 }
 

@@ -9,9 +9,9 @@ namespace morphbake {
 
 /// Two closed loops of edges, and where their sides are.
 struct Rings {
-  std::vector<int> inner;       ///< vertices of the inner loop, in order
-  std::vector<int> outer;       ///< of the outer one
-  std::vector<bool> is_inside;  ///< #V: on the inner loop, or cut off by it from the outer one
+  std::vector<int> inner;        ///< vertices of the inner loop, in order
+  std::vector<int> outer;        ///< of the outer one
+  std::vector<bool> is_inside;   ///< #V: on the inner loop, or cut off by it from the outer one
   std::vector<bool> is_outside;  ///< #V: on the outer loop, cut off by it, or on another component
 };
 

@@ -49,7 +49,9 @@ std::string joined_names(const Factors& factors, const std::vector<Track>& track
 
 /// The amount that a coefficient of 1 stands for. Coefficients become weights, which engines clamp
 /// to [0, 1]: what goes beyond is folded into the field.
-double field_unit(const Edit& edit) { return edit.amount >= 0 && edit.amount <= 1 ? 1 : edit.amount; }
+double field_unit(const Edit& edit) {
+  return edit.amount >= 0 && edit.amount <= 1 ? 1 : edit.amount;
+}
 
 /// The fields of all products of amounts so far.
 using Terms = std::map<Factors, Eigen::MatrixXd>;
@@ -210,8 +212,7 @@ bool is_separable(const Recipe& recipe, const RegionFields& regions) {
          std::none_of(timeline.keys.begin(), timeline.keys.end(), key_moves);
 }
 
-SeparableTimeline separate_timeline(const Recipe& recipe,
-                                    const RegionFields& regions,
+SeparableTimeline separate_timeline(const Recipe& recipe, const RegionFields& regions,
                                     Eigen::Index vertex_count) {
   return recipe.timeline.keys.empty() ? separate_tracks(recipe, regions, vertex_count)
                                       : separate_keys(recipe, regions, vertex_count);

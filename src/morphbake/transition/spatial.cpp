@@ -13,7 +13,7 @@ namespace morphbake {
 namespace {
 
 [[noreturn]] void fail(const std::string& message, const std::string& hint) {
-  throw BakeError(Problem{Severity::Error, "transition.expression", {}, message, hint});
+  throw BakeError(Problem{Severity::Error, "recipe.expression", {}, message, hint});
 }
 
 Eigen::Vector3d direction(const Animated<Eigen::Vector3d>& vector, double time) {
@@ -35,6 +35,7 @@ struct Formula {
     parser.DefineConst("pi", M_PI);
     parser.SetExpr(text);
   }
+
   Formula(const Formula&) = delete;
   Formula& operator=(const Formula&) = delete;
 

@@ -7,7 +7,7 @@ namespace morphbake {
 /// d of a spatial region, before its falloff: of each source's coordinates, averaged.
 ///
 /// @return  #V, each in [0, 1]
-/// @throws BakeError "transition.expression" where an expression gives no number, or a plane or an
+/// @throws BakeError "recipe.expression" where an expression gives no number, or a plane or an
 ///         axis has no direction at that time
 /// @see     Alexa 2003, section 5.2
 Eigen::VectorXd spatial_distance(const SpatialField& field, double time);

@@ -6,9 +6,8 @@
 namespace morphbake {
 namespace {
 
-TransitionState transition_between_keys(const Recipe& recipe,
-                                        const RegionFields& regions, Eigen::Index vertex_count,
-                                        double time) {
+TransitionState transition_between_keys(const Recipe& recipe, const RegionFields& regions,
+                                        Eigen::Index vertex_count, double time) {
   const std::vector<Key>& keys = recipe.timeline.keys;
   const auto state = [&](const Key& key) {
     return state_transition(recipe.states[static_cast<std::size_t>(key.state)], regions,

@@ -82,8 +82,8 @@ TEST(Rings, AreContinuousAcrossTheirLoops) {
   double largest = 0;  // step over an edge
   for (Eigen::Index f = 0; f < mesh.triangles.rows(); ++f) {
     for (int k = 0; k < 3; ++k) {
-      largest = std::max(largest, std::abs(d(mesh.triangles(f, k)) -
-                                           d(mesh.triangles(f, (k + 1) % 3))));
+      largest =
+          std::max(largest, std::abs(d(mesh.triangles(f, k)) - d(mesh.triangles(f, (k + 1) % 3))));
     }
   }
   EXPECT_LT(largest, 0.1);  // 18 edges from loop to loop
@@ -146,7 +146,8 @@ TEST(Falloffs, KeepTheEndsAndTheMiddle) {
     EXPECT_LT((d - Vector3d(0, 0.5, 1)).cwiseAbs().maxCoeff(), 1e-15);
   }
   EXPECT_NEAR(bent_by(Falloff::Smoothstep, Vector3d::Constant(0.25))(0), 0.15625, 1e-15);
-  EXPECT_NEAR(bent_by(Falloff::Cosine, Vector3d::Constant(0.25))(0), (1 - std::sqrt(0.5)) / 2, 1e-15);
+  EXPECT_NEAR(bent_by(Falloff::Cosine, Vector3d::Constant(0.25))(0), (1 - std::sqrt(0.5)) / 2,
+              1e-15);
 }
 
 TEST(Scattered, AreHarmonicBetweenTheirPoints) {
@@ -216,7 +217,8 @@ TEST(Regions, DoNotDependOnTheOrderOfVertices) {
   for (std::size_t v = 0; v < place.size(); ++v) {
     shuffled.positions.row(place[v]) = mesh.positions.row(static_cast<Eigen::Index>(v));
   }
-  for (int& vertex : shuffled.triangles.reshaped()) vertex = place[static_cast<std::size_t>(vertex)];
+  for (int& vertex : shuffled.triangles.reshaped())
+    vertex = place[static_cast<std::size_t>(vertex)];
   const std::vector<RegionOfInterest> regions = {
       {"ball", ball({0, 1, 0}, 0.2, 1.5)},
       {"rings", RingsRegion{0, circle(0.6, 8), circle(0, 8)}},

@@ -49,20 +49,21 @@ TEST(SpatialShapes, HaveTheirClosedForms) {
 TEST(SpatialShapes, ABoxIsExactInsideAndOut) {
   const Eigen::VectorXd box =
       distance_to(Box{constant(Vector3d(0, 0, 0)), constant(Vector3d(1, 2, 4))});
-  EXPECT_DOUBLE_EQ(box(0), -0.5);                // the nearest face is at x = 0.5
-  EXPECT_DOUBLE_EQ(box(1), 0.5);                 // straight out of a face
-  EXPECT_DOUBLE_EQ(box(2), 1);                   // y = 2 over y = 1
-  EXPECT_DOUBLE_EQ(box(4), 0.5);                 // on the plane y = 1
+  EXPECT_DOUBLE_EQ(box(0), -0.5);  // the nearest face is at x = 0.5
+  EXPECT_DOUBLE_EQ(box(1), 0.5);   // straight out of a face
+  EXPECT_DOUBLE_EQ(box(2), 1);     // y = 2 over y = 1
+  EXPECT_DOUBLE_EQ(box(4), 0.5);   // on the plane y = 1
   const Eigen::VectorXd ended = distance_to(Cylinder{
       constant(Vector3d(0, 0, 0)), constant(Vector3d(0, 0, 3)), constant(1.0), constant(2.0)});
-  EXPECT_DOUBLE_EQ(ended(3), 2);                            // below the end
-  EXPECT_DOUBLE_EQ(ended(4), std::sqrt(2.0) - 1);           // beside, at the height of the end
+  EXPECT_DOUBLE_EQ(ended(3), 2);                   // below the end
+  EXPECT_DOUBLE_EQ(ended(4), std::sqrt(2.0) - 1);  // beside, at the height of the end
   EXPECT_DOUBLE_EQ(ended(0), -1);
 }
 
 TEST(SpatialDistance, ASoftBorderLiesHalfInside) {
   const auto p = std::make_shared<const Positions>(points());
-  const SpatialRegion region{HalfSpace{constant(Vector3d(1, 0, 0)), constant(0.0)}, constant(4.0), {}};
+  const SpatialRegion region{
+      HalfSpace{constant(Vector3d(1, 0, 0)), constant(0.0)}, constant(4.0), {}};
   const Eigen::VectorXd d = spatial_distance({region, {p}}, 0);
   EXPECT_DOUBLE_EQ(d(0), 0.5);
   EXPECT_DOUBLE_EQ(d(1), 0.75);
@@ -72,12 +73,14 @@ TEST(SpatialDistance, ASoftBorderLiesHalfInside) {
 TEST(SpatialDistance, AveragesOverSources) {
   const auto a = std::make_shared<const Positions>(Positions::Constant(2, 3, -1));
   const auto b = std::make_shared<const Positions>(Positions::Constant(2, 3, 1));
-  const SpatialRegion region{HalfSpace{constant(Vector3d(1, 0, 0)), constant(0.0)}, constant(0.0), {}};
+  const SpatialRegion region{
+      HalfSpace{constant(Vector3d(1, 0, 0)), constant(0.0)}, constant(0.0), {}};
   EXPECT_DOUBLE_EQ(spatial_distance({region, {a, b}}, 0)(0), 0.5);
 }
 
 TEST(SpatialDistance, FollowsItsKeys) {
-  SpatialRegion region{HalfSpace{constant(Vector3d(1, 0, 0)), {{1, 3}, {-1, 1}}}, constant(0.0), {}};
+  SpatialRegion region{
+      HalfSpace{constant(Vector3d(1, 0, 0)), {{1, 3}, {-1, 1}}}, constant(0.0), {}};
   EXPECT_TRUE(moves_with_time(region));
   EXPECT_DOUBLE_EQ(signed_distance(region, points(), 0)(0), 1);
   EXPECT_DOUBLE_EQ(signed_distance(region, points(), 2)(0), 0);
