@@ -42,8 +42,8 @@ std::vector<NameOrIndex> chosen_nodes(const Arguments& arguments) {
 FirstChoices choices_for(const Arguments& arguments, const Observer& observer) {
   PendingOutputs never_committed;
   const std::filesystem::path draft = never_committed.stage(
-      arguments.recipe, first_recipe(arguments.sources, arguments.recipe, "",
-                                     {false, {}, chosen_nodes(arguments)}));
+      arguments.recipe,
+      first_recipe(arguments.sources, arguments.recipe, "", {false, {}, chosen_nodes(arguments)}));
   Recipe recipe = read_recipe(draft);
   // Messages name what the user knows.
   recipe.file = arguments.recipe;
@@ -88,9 +88,10 @@ Command add_init(CLI::App& program) {
       ->required()
       ->expected(2, 1000000);
   parser
-      ->add_option("--node", arguments->nodes,
-                   "The node whose mesh is meant, by its name or its index from 0, where a file has "
-                   "several: once for all sources, or once for each")
+      ->add_option(
+          "--node", arguments->nodes,
+          "The node whose mesh is meant, by its name or its index from 0, where a file has "
+          "several: once for all sources, or once for each")
       ->allow_extra_args(false);
   parser->add_option("-o,--output", arguments->recipe, "The recipe to write")
       ->capture_default_str();

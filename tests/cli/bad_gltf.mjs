@@ -42,7 +42,7 @@ function makeFolder(name, change, choice) {
   symlinkSync('..', join(folder, 'linked'));
   execFileSync('mkfifo', [join(folder, 'pipe.bin')]);
   writeFileSync(join(folder, 'short.bin'), Buffer.alloc(8));
-  writeFileSync(join(folder, 'empty.png'), '');
+  writeFileSync(join(folder, 'empty.jpg'), '');
   writeFileSync(join(folder, 'megabyte.bin'), Buffer.alloc(1 << 20));
   writeFileSync(join(folder, 'good.gltf'), JSON.stringify(octahedron()));
   writeFileSync(join(folder, 'bad.gltf'), makeFile(change));

@@ -139,7 +139,7 @@ StagedOutput stage_output(const SolvedRecipe& solved, std::size_t index, const B
       write_morph_glb(solved.first.file, morph, fmt::format("morphbake {}", version()));
   morph = {};  // all of it is in the bytes: what they say is measured
   staged.file = outputs.stage(output.file, bytes);
-  const AnimatedMesh written = read_written_mesh(bytes, output.file, node);
+  const AnimatedMesh written = read_written_mesh(bytes, output.file, node, added > 0);
   const std::vector<std::string>& names = written.target_names;
   if (added > 0) warn_of_targets(solved.recipe, index, names.size(), observer);
   const MorphError error = measure_mesh_morph(solved.mesh, written, solved.groups, motion);

@@ -141,6 +141,13 @@ AnimatedPrimitive read_primitive(const GltfDocument& document, const tinygltf::P
   return primitive;
 }
 
+/// The weights at rest, at all times.
+AnimationCurve constant_weights(const Eigen::VectorXd& rest) {
+  AnimationCurve curve;
+  curve.values = rest.transpose().cast<float>();
+  return curve;
+}
+
 /// The last animation that moves the weights of `node`, since a bake appends its own to those of
 /// the source; the weights at rest when there is none.
 AnimationCurve read_weights(const GltfDocument& document, int node, const Eigen::VectorXd& rest) {
@@ -151,12 +158,10 @@ AnimationCurve read_weights(const GltfDocument& document, int node, const Eigen:
       return read_curve(document, static_cast<int>(a), channel.sampler, count);
     }
   }
-  AnimationCurve curve;
-  curve.values = rest.transpose().cast<float>();
-  return curve;
+  return constant_weights(rest);
 }
 
-AnimatedMesh read_mesh(const GltfDocument& document, const MeshNode& at) {
+AnimatedMesh read_mesh(const GltfDocument& document, const MeshNode& at, bool clip) {
   const tinygltf::Mesh& source = document.model.meshes[static_cast<std::size_t>(at.mesh)];
   const std::size_t targets = target_count(document, at.mesh);
   AnimatedMesh mesh;
@@ -172,7 +177,8 @@ AnimatedMesh read_mesh(const GltfDocument& document, const MeshNode& at) {
   mesh.image_names = std::move(images.names);
   mesh.target_names = target_names(source, targets);
   const tinygltf::Node& node = document.model.nodes[static_cast<std::size_t>(at.node)];
-  mesh.weights = read_weights(document, at.node, rest_weights(node, source, targets));
+  const Eigen::VectorXd rest = rest_weights(node, source, targets);
+  mesh.weights = clip ? read_weights(document, at.node, rest) : constant_weights(rest);
   return mesh;
 }
 
@@ -185,13 +191,13 @@ AnimatedMesh read_animated_mesh(const std::filesystem::path& file, const MeshCho
 AnimatedMesh read_animated_mesh(const GltfFile& file, const MeshChoice& choice) {
   const MeshNode at = choose_mesh_node(*file, choice, Ambiguity::TakeFirst);
   check_mesh_size(*file, at.mesh);
-  return read_mesh(*file, at);
+  return read_mesh(*file, at, true);
 }
 
-AnimatedMesh read_written_mesh(const std::string& glb, const std::filesystem::path& name,
-                               int node) {
+AnimatedMesh read_written_mesh(const std::string& glb, const std::filesystem::path& name, int node,
+                               bool clip) {
   const GltfFile file = open_gltf_bytes(glb, name);
-  return read_mesh(*file, choose_mesh_node(*file, {.node = node}, Ambiguity::TakeFirst));
+  return read_mesh(*file, choose_mesh_node(*file, {.node = node}, Ambiguity::TakeFirst), clip);
 }
 
 Eigen::VectorXd interpolate_keys(const std::vector<float>& times, const Eigen::MatrixXf& weights,

@@ -64,7 +64,9 @@ AnimatedMesh read_animated_mesh(const GltfFile& file, const MeshChoice& choice =
 /// was asked for: the limits for files of others do not hold.
 ///
 /// @param name  what messages call it
-AnimatedMesh read_written_mesh(const std::string& glb, const std::filesystem::path& name, int node);
+/// @param clip  whether the last animation is what is shown, else the weights at rest
+AnimatedMesh read_written_mesh(const std::string& glb, const std::filesystem::path& name, int node,
+                               bool clip);
 
 /// Weights at `time`: linear between keys, constant before the first and after the last.
 ///

@@ -50,20 +50,20 @@ void check_times(const GltfDocument& document, const std::vector<float>& times,
 
 /// Checks how many numbers the output has, before any is read.
 ///
-/// @param of_key   numbers that each key needs
+/// @param keys     of the sampler
+/// @param of_key   numbers that each needs
 /// @param pointer  of the sampler
 /// @return         numbers an element
 int check_output(const GltfDocument& document, const tinygltf::AnimationSampler& sampler,
-                 std::size_t of_key, const std::string& pointer) {
+                 std::size_t keys, std::size_t of_key, const std::string& pointer) {
   const std::string place = pointer + "/output";
-  const std::size_t keys = accessor_count(document, sampler.input, pointer + "/input");
   const std::size_t count = accessor_count(document, sampler.output, place);
-  const int width = accessor_columns(document, sampler.output, place);
+  const auto width = static_cast<std::size_t>(accessor_columns(document, sampler.output, place));
   // Counts are below 2^32 each: products cannot overflow.
-  if (count * static_cast<std::size_t>(width) == keys * of_key) return width;
+  if (count * width == keys * of_key) return static_cast<int>(width);
   fail_at(document, place, "gltf.accessor",
-          fmt::format("the output has {} elements of {} numbers; {} keys need {} numbers each",
-                      count, width, keys, of_key));
+          fmt::format("the output has {} numbers; {} keys of {} need {}", count * width, keys,
+                      of_key, keys * of_key));
 }
 
 }  // namespace
@@ -77,11 +77,11 @@ AnimationCurve read_curve(const GltfDocument& document, int animation, int sampl
   const tinygltf::AnimationSampler& source = samplers[static_cast<std::size_t>(sampler)];
   AnimationCurve curve;
   curve.interpolation = interpolation_of(source.interpolation);
-  const std::size_t parts = curve.interpolation == Interpolation::CubicSpline ? 3 : 1;
-  const int width =
-      check_output(document, source, static_cast<std::size_t>(columns) * parts, pointer);
   curve.times = read_floats(document, source.input, 1, pointer + "/input");
   check_times(document, curve.times, pointer + "/input");
+  const std::size_t parts = curve.interpolation == Interpolation::CubicSpline ? 3 : 1;
+  const int width = check_output(document, source, curve.times.size(),
+                                 static_cast<std::size_t>(columns) * parts, pointer);
   const std::vector<float> numbers =
       read_floats(document, source.output, width, pointer + "/output");
   const auto keys = static_cast<Eigen::Index>(curve.times.size());

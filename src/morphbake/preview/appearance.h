@@ -22,8 +22,8 @@ struct Appearance {
 
 /// Decodes the base-colour textures of `mesh`.
 ///
-/// A texture that cannot be decoded is told as a warning, and what it covers has its factor and vertex
-/// colours alone: a picture is no reason to lose a morph.
+/// A texture that cannot be decoded is told as a warning, and what it covers has its factor and
+/// vertex colours alone: a picture is no reason to lose a morph.
 Appearance make_appearance(const AnimatedMesh& mesh, const Observer& observer = {});
 
 /// The primitive's texture, or none.

@@ -540,17 +540,18 @@ const STRANGERS = [
   ['EXT_texture_avif', 'image/avif', Buffer.concat([Buffer.from('\0\0\0\x1cftypavif', 'latin1'), ENDING])],
 ];
 
-/** Textures of extensions, each beside one of PNG for those who do not know it; `place` puts the image's bytes. */
-const strangers = (place) => async (which) => {
+/** Textures of extensions, each beside one of PNG for those who do not know it; `place(files, bytes, mimeType, name)` says where. */
+const strangers = (kinds, place) => async (which) => {
   const document = gltf.startDocument([{ ...SUBJECT }]);
-  gltf.putMesh(document, STRANGERS.map((_, material) => ({ ...ringPrimitive(document, which), material })).slice(0, 1));
+  gltf.putMesh(document, [{ ...ringPrimitive(document, which), material: 0 }]);
   const { json } = document;
   const files = {};
-  json.images = [{ uri: gltf.dataUri(drawChecks(8, [230, 200, 150], [90, 60, 40]), 'image/png') },
-    ...STRANGERS.map(([, mimeType, bytes], i) => ({ uri: place(files, bytes, mimeType, `${which}+${i}.${mimeType.split(/[/.]/).pop()}`), mimeType }))];
-  json.textures = STRANGERS.map(([name], i) => ({ source: 0, extensions: { [name]: { source: i + 1 } } }));
-  json.materials = STRANGERS.map((_, index) => ({ pbrMetallicRoughness: { baseColorTexture: { index } } }));
-  json.extensionsUsed = STRANGERS.map(([name]) => name);
+  const put = (bytes, mimeType, i) => ({ uri: place(files, bytes, mimeType, `${which}+${i}.${mimeType.slice(-4)}`), mimeType });
+  json.images = [put(drawChecks(8, [230, 200, 150], [90, 60, 40]), 'image/png', 0),
+    ...kinds.map(([, mimeType, bytes], i) => put(bytes, mimeType, i + 1))];
+  json.textures = kinds.map(([name], i) => ({ source: 0, extensions: { [name]: { source: i + 1 } } }));
+  json.materials = kinds.map((_, index) => ({ pbrMetallicRoughness: { baseColorTexture: { index } } }));
+  json.extensionsUsed = kinds.map(([name]) => name);
   const bin = gltf.chunkOf(document);
   files[`${which}+points.bin`] = Buffer.concat([bin, ENDING]);  // longer than its buffer, which is legal
   files[`${which}.gltf`] = gltf.toGltf(document, [{ byteLength: bin.length, uri: `${which}+points.bin` }]);
@@ -559,8 +560,9 @@ const strangers = (place) => async (which) => {
 
 const percentEncoded = (bytes, type) => `data:${type},${[...bytes].map((b) => `%${b.toString(16).padStart(2, '0')}`).join('')}`;
 
-const strangersBeside = strangers((files, bytes, type, name) => { files[name] = bytes; return name; });
-const strangersInUris = strangers((files, bytes, type, name) => (name.includes('+1') ? percentEncoded : gltf.dataUri)(bytes, type));
+const picturesBeside = strangers(STRANGERS, (files, bytes, type, name) => { files[name] = bytes; return name; });
+const picturesInUris = strangers(STRANGERS.slice(0, 1), (files, bytes, type) =>
+  (type === 'image/png' ? percentEncoded : gltf.dataUri)(bytes, type));
 
 /** A .glb whose indices lie in a file beside it. */
 async function besideGlb(which) {
@@ -603,8 +605,8 @@ export const FORMS = {
   'data-uris': { make: dataUris },
   'external': { make: external },
   'beside-glb': { make: besideGlb },
-  'pictures-beside': { make: strangersBeside },
-  'pictures-in-uris': { make: strangersInUris },
+  'pictures-beside': { make: picturesBeside },
+  'pictures-in-uris': { make: picturesInUris },
   'textured': { make: single(textured) },
   'texture-transform': { make: single(textureTransform) },
   'primitives': { make: single(pieces) },

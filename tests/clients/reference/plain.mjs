@@ -37,7 +37,8 @@ export async function openPlain(file) {
 /** Bytes of a `data:` URI or of a file beside the glTF. */
 function resolveUri(uri, folder) {
   const data = /^data:[^,]*?(;base64)?,(.*)$/s.exec(uri);
-  if (data) return new Uint8Array(Buffer.from(decodeURIComponent(data[2]), data[1] ? 'base64' : 'latin1'));
+  const unescaped = (text) => text.replace(/%([0-9a-f]{2})/gi, (_, hex) => String.fromCharCode(parseInt(hex, 16)));  // bytes, no UTF-8
+  if (data) return new Uint8Array(Buffer.from(unescaped(data[2]), data[1] ? 'base64' : 'latin1'));
   const file = path.join(folder, decodeURIComponent(uri));
   if (!existsSync(file)) throw new Error(`${uri} is not there`);
   return new Uint8Array(readFileSync(file));

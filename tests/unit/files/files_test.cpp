@@ -50,6 +50,14 @@ TEST_F(Files, ReadingTellsWhatIsWrong) {
   EXPECT_EQ(read_file(folder / "big", 5), "12345");
 }
 
+TEST_F(Files, OfALongFileTheStartIsRead) {
+  write("text", "12345");
+  EXPECT_EQ(read_file_start(folder / "text", 3), "123");
+  EXPECT_EQ(read_file_start(folder / "text", 9), "12345");
+  EXPECT_THROW(read_file_start(folder / "gone", 3), BakeError);
+  EXPECT_THROW(read_file_start(folder / "inner", 3), BakeError);
+}
+
 TEST_F(Files, NothingLeavesTheFolder) {
   fs::create_symlink("/etc", folder / "link");
   for (const char* uri :

@@ -214,6 +214,20 @@ TEST(WriteMorph, AnimationsByPointerGetNumbersForNewTargets) {
   }
 }
 
+TEST(WriteMorph, WhatIsReadBackIsWhatWasWritten) {
+  Source source;
+  source.add_own_target();
+  source.draft.json["meshes"][0]["weights"] = {0.5};
+  const std::string moving = write_morph_glb(source.open(), morph_of(1), "test");
+  const AnimatedMesh clip = read_written_mesh(moving, "written.glb", 0, true);
+  EXPECT_EQ(weights_at(clip, 1), Eigen::Vector2d(0.5, 1));
+  // A still adds no animation: the file's own ones do not count.
+  const std::string still = write_morph_glb(source.open(), still_of(1, 7), "test");
+  const AnimatedMesh rest = read_written_mesh(still, "written.glb", 0, false);
+  EXPECT_EQ(weights_at(rest, 1)(0), 0.5);
+  EXPECT_EQ(rest.primitives[0].positions(0, 0), 7 - 0.5F * 5);
+}
+
 TEST(WriteMorph, OtherPointersStay) {
   for (const char* pointer :
        {"/nodes/1/weights", "/meshes/1/weights", "/nodes/0/weights/0", "/nodes//weights",
