@@ -18,7 +18,7 @@ struct EigenvectorOptions {
   /// Convergence of a pair, relative to what the solver iterates on; 1e-14 to 1e-6.
   double tolerance = 1e-12;
   /// Restarts of one component's iteration before it counts as not converging.
-  int max_restarts = 300;
+  int max_restarts = 20;
 };
 
 /// The `count` smallest eigenpairs of the symmetric normalised Laplacian S = Deg^-1/2 K_L Deg^-1/2
