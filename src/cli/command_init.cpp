@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <utility>
 
 #include "cli/commands.h"
 #include "morphbake/bake/bake.h"
@@ -40,10 +41,11 @@ std::vector<NameOrIndex> chosen_nodes(const Arguments& arguments) {
 
 /// What the recipe has to say, by a draft that is not kept.
 FirstChoices choices_for(const Arguments& arguments, const Observer& observer) {
+  FirstChoices asked;
+  asked.nodes = chosen_nodes(arguments);
   PendingOutputs never_committed;
   const std::filesystem::path draft = never_committed.stage(
-      arguments.recipe,
-      first_recipe(arguments.sources, arguments.recipe, "", {false, {}, chosen_nodes(arguments)}));
+      arguments.recipe, first_recipe(arguments.sources, arguments.recipe, "", asked));
   Recipe recipe = read_recipe(draft);
   // Messages name what the user knows.
   recipe.file = arguments.recipe;
@@ -51,7 +53,7 @@ FirstChoices choices_for(const Arguments& arguments, const Observer& observer) {
     recipe.sources[i].file = arguments.sources[i];
   }
   FirstChoices choices = first_choices(recipe, observer);
-  choices.nodes = chosen_nodes(arguments);
+  choices.nodes = std::move(asked.nodes);
   return choices;
 }
 

@@ -4,9 +4,11 @@
 #include <CGAL/Polygon_mesh_processing/distance.h>
 #include <CGAL/Polygon_mesh_processing/self_intersections.h>
 #include <CGAL/Surface_mesh.h>
+#include <CGAL/boost/graph/Euler_operations.h>
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <iterator>
 #include <utility>
 #include <vector>
@@ -28,12 +30,15 @@ Point point_of(const Positions& positions, int v) {
 Surface to_cgal(const Mesh& mesh) {
   Surface surface;
   for (int v = 0; v < mesh.positions.rows(); ++v) surface.add_vertex(point_of(mesh.positions, v));
-  for (int f = 0; f < mesh.triangles.rows(); ++f) {
-    const auto corner = [&](int k) {
-      return Surface::Vertex_index(static_cast<unsigned>(mesh.triangles(f, k)));
-    };
-    surface.add_face(corner(0), corner(1), corner(2));
+  // Not add_face, which looks around each vertex every time: for ever at the hub of a large fan.
+  std::vector<std::array<Surface::Vertex_index, 3>> faces;
+  for (const auto& corners : mesh.triangles.rowwise()) {
+    auto& face = faces.emplace_back();
+    for (std::size_t k = 0; k < 3; ++k) {
+      face[k] = Surface::Vertex_index(static_cast<unsigned>(corners(static_cast<Eigen::Index>(k))));
+    }
   }
+  CGAL::Euler::add_faces(faces, surface);
   return surface;
 }
 

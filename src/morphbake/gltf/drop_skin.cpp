@@ -1,8 +1,6 @@
 #include <fmt/core.h>
 
-#include <Eigen/LU>
 #include <algorithm>
-#include <cmath>
 
 #include "morphbake/gltf/morph_writing.h"
 #include "morphbake/gltf/nodes.h"

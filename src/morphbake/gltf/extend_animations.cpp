@@ -4,6 +4,7 @@
 #include <charconv>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <tuple>
@@ -51,28 +52,39 @@ std::optional<std::size_t> index_in(std::string_view pointer, const std::string&
   return index;
 }
 
-bool shows_mesh(const MorphWriting& writing, std::size_t node) {
+/// The morph's mesh, and the nodes that show it. Lists of the root are looked up once, since it may
+/// have many fields.
+struct Subject {
+  const MorphWriting& writing;
+  std::set<std::size_t> nodes;
+};
+
+Subject subject_of(const MorphWriting& writing) {
+  Subject subject{writing, {}};
   const Json& nodes = writing.draft.json.at("nodes");
-  return node < nodes.size() && nodes[node].value("mesh", -1) == writing.mesh;
+  for (std::size_t n = 0; n < nodes.size(); ++n) {
+    if (nodes[n].value("mesh", -1) == writing.mesh) subject.nodes.insert(n);
+  }
+  return subject;
 }
 
 /// What a channel of KHR_animation_pointer moves; "" when it says nothing.
 std::string pointer_of(const Json& target) {
-  static const Json::json_pointer kPlace("/extensions/KHR_animation_pointer/pointer");
-  const bool is_told = target.contains(kPlace) && target.at(kPlace).is_string();
-  return is_told ? target.at(kPlace).get<std::string>() : std::string();
+  static const Json::json_pointer place("/extensions/KHR_animation_pointer/pointer");
+  const bool is_told = target.contains(place) && target.at(place).is_string();
+  return is_told ? target.at(place).get<std::string>() : std::string();
 }
 
 /// Whether a channel moves the weights of the morph's mesh.
-bool moves_weights(const MorphWriting& writing, const Json& channel) {
+bool moves_weights(const Subject& subject, const Json& channel) {
   const Json& target = channel.at("target");
   if (target.at("path") == "weights") {
-    return target.contains("node") && shows_mesh(writing, target["node"].get<std::size_t>());
+    return target.contains("node") && subject.nodes.contains(target["node"].get<std::size_t>());
   }
   if (target.at("path") != "pointer") return false;
   const std::string pointer = pointer_of(target);
-  if (const auto node = index_in(pointer, "nodes")) return shows_mesh(writing, *node);
-  return index_in(pointer, "meshes") == static_cast<std::size_t>(writing.mesh);
+  if (const auto node = index_in(pointer, "nodes")) return subject.nodes.contains(*node);
+  return index_in(pointer, "meshes") == static_cast<std::size_t>(subject.writing.mesh);
 }
 
 void check_channel(const MorphWriting& writing, std::size_t animation, std::size_t sampler,
@@ -89,16 +101,16 @@ void check_channel(const MorphWriting& writing, std::size_t animation, std::size
 }
 
 /// The samplers of an animation that move the mesh's weights.
-std::vector<WeightSampler> weight_samplers(const MorphWriting& writing, std::size_t index) {
-  const Json& animation = writing.draft.json.at("animations")[index];
+std::vector<WeightSampler> weight_samplers(const Subject& subject, const Json& animation,
+                                           std::size_t index) {
   const Json &channels = animation.at("channels"), &samplers = animation.at("samplers");
   std::map<std::size_t, std::size_t> readers;  // of a sampler: channels of any kind
   std::map<std::size_t, WeightSampler> found;
   for (std::size_t c = 0; c < channels.size(); ++c) {
     const auto sampler = channels[c].at("sampler").get<std::size_t>();
     ++readers[sampler];
-    if (!moves_weights(writing, channels[c])) continue;
-    check_channel(writing, index, sampler, samplers.size());
+    if (!moves_weights(subject, channels[c])) continue;
+    check_channel(subject.writing, index, sampler, samplers.size());
     WeightSampler& at = found[sampler];
     at.animation = index;
     at.sampler = sampler;
@@ -115,9 +127,12 @@ std::vector<WeightSampler> weight_samplers(const MorphWriting& writing, std::siz
 Curves weight_curves(const MorphWriting& writing) {
   Curves curves;
   const auto animations = writing.draft.json.find("animations");
-  for (std::size_t a = 0; animations != writing.draft.json.end() && a < animations->size(); ++a) {
-    for (WeightSampler& sampler : weight_samplers(writing, a)) {
-      const Json& json = (*animations)[a].at("samplers")[sampler.sampler];
+  if (animations == writing.draft.json.end()) return curves;
+  const Subject subject = subject_of(writing);
+  for (std::size_t a = 0; a < animations->size(); ++a) {
+    const Json& animation = (*animations)[a];
+    for (WeightSampler& sampler : weight_samplers(subject, animation, a)) {
+      const Json& json = animation.at("samplers")[sampler.sampler];
       curves[curve_of(json)].push_back(std::move(sampler));
     }
   }
@@ -161,8 +176,8 @@ std::vector<float> extended(const AnimationCurve& curve, const std::vector<float
 }
 
 /// Lets the channels of weights read another output, and all others what they read before.
-void set_output(MorphWriting& writing, const WeightSampler& at, int output) {
-  Json& animation = writing.draft.json["animations"][at.animation];
+void set_output(Json& animations, const WeightSampler& at, int output) {
+  Json& animation = animations[at.animation];
   Json& samplers = animation["samplers"];
   if (at.is_only_weights) {
     samplers[at.sampler]["output"] = output;
@@ -178,7 +193,9 @@ void set_output(MorphWriting& writing, const WeightSampler& at, int output) {
 
 void extend_animations(MorphWriting& writing) {
   const Curves curves = weight_curves(writing);
+  if (curves.empty()) return;
   check_size(writing, curves);
+  Json& animations = writing.draft.json.at("animations");  // looked up once: the root may be long
   for (const auto& [curve, samplers] : curves) {
     const WeightSampler& first = samplers.front();
     const std::vector<float> numbers =
@@ -189,7 +206,7 @@ void extend_animations(MorphWriting& writing) {
     const int output = replace_accessor(writing.draft, writing.references,
                                         {std::get<1>(curve), static_cast<int>(replaced)},
                                         {numbers.data(), numbers.size(), 1, BufferUse::Other});
-    for (const WeightSampler& sampler : samplers) set_output(writing, sampler, output);
+    for (const WeightSampler& sampler : samplers) set_output(animations, sampler, output);
   }
 }
 

@@ -3,7 +3,6 @@
 #include <fmt/core.h>
 
 #include <filesystem>
-#include <limits>
 #include <utility>
 
 #include "morphbake/diagnostics/problem.h"
@@ -21,11 +20,21 @@ struct Resource {
   std::string media_type;  ///< that a data URI says
 };
 
-Bytes file_bytes(const GltfDocument& document, const std::string& uri, std::size_t most,
+constexpr std::size_t kMostImageBytes = std::size_t{1}
+                                        << 29;  // encoded: pixels are bounded elsewhere
+
+/// What is read of a file.
+struct Extent {
+  std::size_t most = 0;   ///< bytes
+  bool is_whole = false;  ///< or it is an error; else the file may be longer
+};
+
+Bytes file_bytes(const GltfDocument& document, const std::string& uri, const Extent& extent,
                  const std::string& pointer) {
   try {
+    const auto file = inside_folder(document.file.parent_path(), uri_path(uri));
     const std::string bytes =
-        read_file_start(inside_folder(document.file.parent_path(), uri_path(uri)), most);
+        extent.is_whole ? read_file(file, extent.most) : read_file_start(file, extent.most);
     return {bytes.begin(), bytes.end()};
   } catch (const BakeError& error) {
     fail_at(document, pointer, "gltf.missing-file",
@@ -33,11 +42,10 @@ Bytes file_bytes(const GltfDocument& document, const std::string& uri, std::size
   }
 }
 
-/// @param most     bytes that are needed, of a file that may be longer
 /// @param pointer  of the URI
-Resource read_uri(const GltfDocument& document, const std::string& uri, std::size_t most,
+Resource read_uri(const GltfDocument& document, const std::string& uri, const Extent& extent,
                   const std::string& pointer) {
-  if (!is_data_uri(uri)) return {file_bytes(document, uri, most, pointer), ""};
+  if (!is_data_uri(uri)) return {file_bytes(document, uri, extent, pointer), ""};
   DataUri data = read_data_uri(uri);
   if (!data.fault.empty()) {
     fail_at(document, pointer, "gltf.invalid",
@@ -59,7 +67,7 @@ Bytes buffer_bytes(const GltfDocument& document, const Json& buffer, std::string
   const auto uri = buffer.find("uri");
   if (uri != buffer.end()) {
     Bytes bytes =
-        read_uri(document, uri->get_ref<const std::string&>(), size, pointer + "/uri").bytes;
+        read_uri(document, uri->get_ref<const std::string&>(), {size}, pointer + "/uri").bytes;
     if (bytes.size() > size) bytes.resize(size);
     return bytes;
   }
@@ -123,8 +131,7 @@ std::vector<tinygltf::Image> read_images(const GltfDocument& document) {
     std::string path, of_data;
     if (const auto uri = json.find("uri"); uri != json.end()) {
       const auto& text = uri->get_ref<const std::string&>();
-      Resource resource =
-          read_uri(document, text, std::numeric_limits<std::size_t>::max(), pointer + "/uri");
+      Resource resource = read_uri(document, text, {kMostImageBytes, true}, pointer + "/uri");
       image.image = std::move(resource.bytes);
       of_data = std::move(resource.media_type);
       if (!is_data_uri(text)) path = uri_path(text);

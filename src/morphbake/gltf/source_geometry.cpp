@@ -3,7 +3,6 @@
 #include <fmt/core.h>
 
 #include <Eigen/LU>
-#include <cmath>
 
 #include "morphbake/gltf/moment.h"
 #include "morphbake/gltf/names.h"

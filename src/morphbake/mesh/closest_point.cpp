@@ -6,6 +6,7 @@
 #include <CGAL/Simple_cartesian.h>
 
 #include <Eigen/Geometry>
+#include <algorithm>
 
 namespace morphbake {
 namespace {
@@ -30,6 +31,25 @@ std::vector<Triangle> triangles_of(const Mesh& mesh) {
     triangles.emplace_back(corner(0), corner(1), corner(2));
   }
   return triangles;
+}
+
+/// Points of the surface from which a search may start: first corners, each place once. CGAL's own
+/// choice takes one a triangle, and its tree of them never ends where thousands are the same.
+std::vector<Tree::Point_and_primitive_id> starts_of(const std::vector<Triangle>& triangles) {
+  std::vector<Iterator> order;
+  order.reserve(triangles.size());
+  for (auto triangle = triangles.begin(); triangle != triangles.end(); ++triangle) {
+    order.push_back(triangle);
+  }
+  const auto corner = [](Iterator triangle) { return triangle->vertex(0); };
+  std::stable_sort(order.begin(), order.end(),
+                   [&](Iterator a, Iterator b) { return corner(a) < corner(b); });
+  std::vector<Tree::Point_and_primitive_id> starts;
+  for (const Iterator triangle : order) {
+    if (!starts.empty() && starts.back().first == corner(triangle)) continue;
+    starts.emplace_back(corner(triangle), triangle);
+  }
+  return starts;
 }
 
 /// Barycentric coordinates of a point of the triangle: the shares of area across from each corner.
@@ -59,6 +79,8 @@ std::vector<SurfacePoint> closest_points(const Mesh& mesh, const Positions& posi
                                          const Observer& observer) {
   const std::vector<Triangle> triangles = triangles_of(mesh);
   Tree tree(triangles.begin(), triangles.end());
+  const auto starts = starts_of(triangles);
+  tree.accelerate_distance_queries(starts.begin(), starts.end());
   std::vector<SurfacePoint> points;
   points.reserve(static_cast<std::size_t>(positions.rows()));
   for (Eigen::Index i = 0; i < positions.rows(); ++i) {

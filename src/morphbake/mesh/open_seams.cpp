@@ -40,25 +40,14 @@ class BoundaryVertices {
     for (const auto& [a, b] : edges) vertices.insert(vertices.end(), {a, b});
     std::sort(vertices.begin(), vertices.end());
     vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
-    for (const int v : vertices) cells_[cell_of(v)].push_back(v);
+    for (const int v : vertices) cells_[cell_of(geometries_[0].row(v))].push_back(v);
+    beside_.resize(static_cast<std::size_t>(geometries_[0].rows()));
+    for (const int v : vertices) beside_[static_cast<std::size_t>(v)] = find_beside(v);
   }
 
   /// The vertex itself and those that lie beside it in all geometries, rising.
-  std::vector<int> beside(int vertex) const {
-    std::vector<int> found = {vertex};
-    const Cell middle = cell_of(vertex);
-    const auto step = [](int third) { return static_cast<double>(third % 3 - 1); };
-    for (int i = 0; i < 27 && found.size() < kMostBeside; ++i) {
-      const auto cell =
-          cells_.find({middle[0] + step(i), middle[1] + step(i / 3), middle[2] + step(i / 9)});
-      if (cell == cells_.end()) continue;
-      const std::size_t looked_at = std::min(cell->second.size(), kMostBeside);
-      for (std::size_t k = 0; k < looked_at; ++k) {
-        const int other = cell->second[k];
-        if (other != vertex && are_beside(vertex, other)) found.push_back(other);
-      }
-    }
-    return found;
+  const std::vector<int>& beside(int vertex) const {
+    return beside_[static_cast<std::size_t>(vertex)];
   }
 
   /// Whether an edge is long enough for its ends to be told apart.
@@ -72,11 +61,35 @@ class BoundaryVertices {
  private:
   using Cell = std::array<double, 3>;  // whole numbers, too large for int in a mesh far away
 
-  Cell cell_of(int vertex) const {
-    const double side = reaches_[0] > 0 ? reaches_[0] : 1;
-    const Positions& positions = geometries_[0];
-    return {std::floor(positions(vertex, 0) / side), std::floor(positions(vertex, 1) / side),
-            std::floor(positions(vertex, 2) / side)};
+  /// Cells are twice as wide as vertices may lie apart: a neighbour is in one of eight.
+  Cell cell_of(const Eigen::RowVector3d& position) const {
+    const double side = reaches_[0] > 0 ? 2 * reaches_[0] : 1;
+    return {std::floor(position(0) / side), std::floor(position(1) / side),
+            std::floor(position(2) / side)};
+  }
+
+  std::vector<int> find_beside(int vertex) const {
+    std::vector<int> found = {vertex};
+    const Eigen::RowVector3d middle = geometries_[0].row(vertex);
+    const Cell low = cell_of(middle.array() - reaches_[0]);
+    const Cell high = cell_of(middle.array() + reaches_[0]);
+    for (std::size_t i = 0; i < 8 && found.size() < kMostBeside; ++i) {
+      Cell at;
+      bool is_new = true;  // where both ends lie in one cell, that is looked at once
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        const bool takes_high = (i >> axis & 1) != 0;
+        at[axis] = takes_high ? high[axis] : low[axis];
+        is_new = is_new && !(takes_high && low[axis] == high[axis]);
+      }
+      const auto cell = is_new ? cells_.find(at) : cells_.end();
+      if (cell == cells_.end()) continue;
+      const std::size_t looked_at = std::min(cell->second.size(), kMostBeside);
+      for (std::size_t k = 0; k < looked_at; ++k) {
+        const int other = cell->second[k];
+        if (other != vertex && are_beside(vertex, other)) found.push_back(other);
+      }
+    }
+    return found;
   }
 
   double distance(int a, int b, std::size_t g) const {
@@ -93,6 +106,7 @@ class BoundaryVertices {
   const std::vector<Positions>& geometries_;
   std::vector<double> reaches_;
   std::map<Cell, std::vector<int>> cells_;
+  std::vector<std::vector<int>> beside_;  // one a vertex: none for those inside
 };
 
 }  // namespace
@@ -104,8 +118,8 @@ std::vector<Eigen::Vector2i> find_open_seams(const Triangles& triangles,
   std::vector<Eigen::Vector2i> seams;
   for (const Edge& edge : edges) {
     if (!vertices.is_long(edge)) continue;
-    const std::vector<int> beside_a = vertices.beside(edge.first);
-    const std::vector<int> beside_b = vertices.beside(edge.second);
+    const std::vector<int>& beside_a = vertices.beside(edge.first);
+    const std::vector<int>& beside_b = vertices.beside(edge.second);
     const bool has_twin = std::any_of(beside_a.begin(), beside_a.end(), [&](int a) {
       return std::any_of(beside_b.begin(), beside_b.end(), [&](int b) {
         const Edge other = std::minmax(a, b);

@@ -23,9 +23,9 @@ struct StillView {
 
 /// A picture of the mesh at rest, and where points of its surface are seen in it.
 ///
+/// Warns of textures as make_appearance.
 /// @param options  azimuth and elevation say from where; one frame
 /// @param points   scene coordinates
-/// Warns of textures as make_appearance.
 /// @throws BakeError "preview.not-finite"
 StillView render_still(const AnimatedMesh& mesh, const TurntableOptions& options,
                        const Positions& points, const Observer& observer = {});

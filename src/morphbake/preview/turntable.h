@@ -41,8 +41,7 @@ struct TurntableOptions {
 ///
 /// Base colour, soft studio light, ambient occlusion, ground shadow; a surface without any colour
 /// gets that of clay. The camera keeps its distance and the subject is never cut over the whole
-/// motion.
-/// Warns of textures as make_appearance.
+/// motion. Warns of textures as make_appearance.
 /// @return  `options.frames` pictures; the same bytes whatever the number of threads
 /// @throws BakeError "preview.bad-option"; "preview.not-finite" (a vertex of some pose); Cancelled
 ///         between two pictures

@@ -33,12 +33,15 @@ Surface to_cgal(const Mesh& mesh) {
   for (int v = 0; v < mesh.positions.rows(); ++v) {
     surface.add_vertex(Point(mesh.positions(v, 0), mesh.positions(v, 1), mesh.positions(v, 2)));
   }
-  for (int f = 0; f < mesh.triangles.rows(); ++f) {
-    const auto corner = [&](int k) {
-      return VertexIndex(static_cast<unsigned>(mesh.triangles(f, k)));
-    };
-    surface.add_face(corner(0), corner(1), corner(2));
+  // Not add_face, which looks around each vertex every time: for ever at the hub of a large fan.
+  std::vector<std::array<VertexIndex, 3>> faces;
+  for (const auto& corners : mesh.triangles.rowwise()) {
+    auto& face = faces.emplace_back();
+    for (std::size_t k = 0; k < 3; ++k) {
+      face[k] = VertexIndex(static_cast<unsigned>(corners(static_cast<Eigen::Index>(k))));
+    }
   }
+  CGAL::Euler::add_faces(faces, surface);
   return surface;
 }
 
