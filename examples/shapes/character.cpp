@@ -14,7 +14,7 @@
 namespace shapes {
 namespace {
 
-constexpr int texture_size = 1024;
+constexpr int texture_size = 512;
 
 /// In the order of the primitives.
 const std::array<std::pair<Fabric, Material>, 3> materials{
