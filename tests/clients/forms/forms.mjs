@@ -6,7 +6,7 @@ import { pathToFileURL } from 'node:url';
 import { cross, unit } from '../reference/vectors.mjs';
 import * as gltf from './document.mjs';
 import { putDraco, putMeshopt } from './packed.mjs';
-import { drawChecks } from './png.mjs';
+import { drawChecks, drawWebp } from './pictures.mjs';
 import { COLUMNS, disc, pieceOf, ring, ringStrip, unshared } from './surfaces.mjs';
 
 const SUBJECT = { name: 'subject', mesh: 0 };
@@ -280,8 +280,8 @@ const displaced = (hasTwin) => async (which) => {
 /** A skin whose first joint hides what hangs on it: nothing. */
 const skinWithFlatJoint = async (which) => {
   const document = await skinned({ componentType: gltf.FLOAT, jointType: gltf.UNSIGNED_SHORT, sum: 1, firstJoint: 1 })(which);
-  document.json.nodes.push({ name: 'hidden', scale: [0, 0, 0] });
-  document.json.scenes[0].nodes.push(3);
+  document.json.nodes.push({ name: 'hidden', scale: [0, 0, 0] }, { name: 'root', children: [1, 3] });
+  document.json.scenes[0].nodes = [0, 4];
   const [bones] = document.json.skins;
   delete bones.skeleton;
   bones.joints.unshift(3);
@@ -363,7 +363,9 @@ async function pointedWeights(which) {
   const pointTo = (pointer) => ({ path: 'pointer', extensions: { KHR_animation_pointer: { pointer } } });
   json.animations[0].channels[0].target = pointTo('/nodes/0/weights');
   animate(document, 'mesh', 0, 'weights', [0, 0.5, 2], CUBIC_WEIGHTS, 'CUBICSPLINE');
-  json.animations.at(-1).channels[0].target = pointTo('/meshes/0/weights');
+  const [sampler] = json.animations.pop().samplers;
+  const drift = json.animations.at(-1);  // a clip stays when a client leaves out this channel of it, as Babylon.js does
+  drift.channels.push({ sampler: drift.samplers.push(sampler) - 1, target: pointTo('/meshes/0/weights') });
   json.extensionsUsed = ['KHR_animation_pointer'];
   return document;
 }
@@ -533,9 +535,9 @@ async function external(which) {
 
 const ENDING = Buffer.from('0123456789abcdef0123456789abcdef');
 
-/** The beginnings of pictures in the formats of extensions; nobody here looks further. */
+/** Pictures in the formats of extensions; of all but WebP only the beginnings: we look no further. */
 const STRANGERS = [
-  ['EXT_texture_webp', 'image/webp', Buffer.concat([Buffer.from('RIFF\x28\0\0\0WEBPVP8L', 'latin1'), ENDING])],
+  ['EXT_texture_webp', 'image/webp', drawWebp(8, [230, 150, 60])],
   ['KHR_texture_basisu', 'image/ktx2', Buffer.concat([Buffer.from('\xabKTX 20\xbb\r\n\x1a\n', 'latin1'), ENDING])],
   ['MSFT_texture_dds', 'image/vnd-ms.dds', Buffer.concat([Buffer.from('DDS |\0\0\0', 'latin1'), ENDING])],
   ['EXT_texture_avif', 'image/avif', Buffer.concat([Buffer.from('\0\0\0\x1cftypavif', 'latin1'), ENDING])],
