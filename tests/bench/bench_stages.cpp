@@ -93,7 +93,7 @@ void bench_regions(int vertices, Figures& figures) {
   const Mesh mesh = torus_of(vertices);
   const SurfacePoint centre{0, {0.3, 0.3, 0.4}};
   const Pair pair = time_pair(
-      1, [&] { edge_distances(mesh, centre); }, [&] { geodesic_distances(mesh, {centre}); });
+      1, [&] { edge_distances(mesh, {centre}); }, [&] { geodesic_distances(mesh, {{centre}}); });
   figures.push_back({group, "Dijkstra", pair.first * 1e3, "ms", ""});
   figures.push_back({group, "geodesic", pair.second * 1e3, "ms", ""});
 }

@@ -108,12 +108,13 @@ MorphWithMotion make_still_output(const SolvedRecipe& solved, const Still& still
 MorphWithMotion make_animated_output(const SolvedRecipe& solved, TargetKind targets,
                                      const BasisOptions& options, const Observer& observer) {
   const Timeline& timeline = solved.recipe.timeline;
-  const auto& [separable, system, solver, shapes, frames, report] = solved.timeline;
-  const bool by_track = targets == TargetKind::Tracks;
+  const SolvedTimeline& of = solved.timeline;
+  const bool by_track = targets != TargetKind::Frames && of.shapes.base.rows() > 0;
   const ReferenceMotion motion = watched(
-      by_track ? continuous_motion(shapes, separable, timeline) : stepped_motion(frames), observer);
+      by_track ? continuous_motion(of.shapes, *of.separable, timeline) : stepped_motion(of.frames),
+      observer);
   const MorphBasis basis =
-      by_track ? track_basis(shapes, separable, timeline, options) : frame_basis(frames);
+      by_track ? track_basis(of.shapes, *of.separable, timeline, options) : frame_basis(of.frames);
   MeshMorph morph = make_mesh_morph(solved.first, solved.mesh, basis, solved.groups, motion);
   morph.animation_name = solved.recipe.name;
   return {std::move(morph), motion};

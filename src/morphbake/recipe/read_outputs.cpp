@@ -43,6 +43,7 @@ Output read_output(Reading& reading, const Json& json, const std::string& pointe
              "outputs are written below the recipe's folder; --output-dir chooses another one");
   }
   if (json.value("targets", "") == "frames") output.targets = TargetKind::Frames;
+  if (json.value("targets", "") == "tracks") output.targets = TargetKind::Tracks;
   output.max_normal_error = read_normal_bounds(json);
   output.unmet_is_error = json.value("unmet", "") != "warning";
   if (!json.contains("still")) return output;
@@ -68,6 +69,24 @@ std::vector<PreviewFormat> read_formats(Reading& reading, const Json& json) {
     formats.push_back(format);
   }
   return formats;
+}
+
+std::vector<MapKind> read_maps(Reading& reading, const Json& preview) {
+  std::vector<MapKind> maps;
+  const Json json = preview.value("maps", Json::array());
+  for (std::size_t i = 0; i < json.size(); ++i) {
+    const auto kind = json[i] == "regions" ? MapKind::Regions : MapKind::Mix;
+    if (std::find(maps.begin(), maps.end(), kind) != maps.end()) {
+      complain(reading, "recipe.bad-value", child_pointer("/preview/maps", i),
+               fmt::format("maps lists {} twice", shown(json[i])), "remove one of them");
+    }
+    if (kind == MapKind::Regions && reading.recipe.regions.empty()) {
+      complain(reading, "recipe.missing-field", child_pointer("/preview/maps", i),
+               "there is no region to draw", "add \"regions\", or remove the map");
+    }
+    maps.push_back(kind);
+  }
+  return maps;
 }
 
 bool same_file(const fs::path& a, const fs::path& b) {
@@ -130,6 +149,7 @@ void read_preview(Reading& reading) {
   }
   if (turntable.contains("frames")) preview.frames = whole_number(turntable["frames"]);
   preview.formats = read_formats(reading, json->value("formats", Json::array({"gif", "sheet"})));
+  preview.maps = read_maps(reading, *json);
   const double pixels = 1.0 * preview.width * preview.height * preview.frames;
   if (pixels > preview_pixel_limit) {
     complain(reading, "recipe.out-of-range", "/preview/turntable",

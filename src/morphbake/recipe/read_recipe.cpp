@@ -52,6 +52,22 @@ void throw_problems(std::vector<Problem> problems) {
   throw BakeError(std::move(problems));
 }
 
+/// Gives all shares three columns where any has them.
+void harmonise_axes(Recipe& recipe) {
+  std::vector<Shares*> all = {&recipe.timeline.start};
+  for (Track& track : recipe.timeline.tracks) all.push_back(&track.edit.to);
+  for (State& state : recipe.states) {
+    all.push_back(&state.mix);
+    for (Edit& edit : state.edits) all.push_back(&edit.to);
+  }
+  const bool any =
+      std::any_of(all.begin(), all.end(), [](const Shares* s) { return s->cols() > 1; });
+  if (!any) return;
+  for (Shares* shares : all) {
+    if (shares->cols() == 1) *shares = shares->replicate(1, 3).eval();
+  }
+}
+
 void read_parts(Reading& reading) {
   const Json& document = reading.document;
   reading.recipe.name = document["name"].get<std::string>();
@@ -61,8 +77,10 @@ void read_parts(Reading& reading) {
   read_sources(reading);
   read_connectivity(reading);
   read_regions(reading);
+  read_derived(reading);
   read_states(reading);
   read_timeline(reading);
+  harmonise_axes(reading.recipe);
   read_constraints(reading);
   read_outputs(reading);
   read_preview(reading);

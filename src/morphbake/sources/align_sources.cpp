@@ -10,6 +10,7 @@
 
 #include "morphbake/json/json.h"
 #include "morphbake/mesh/measures.h"
+#include "morphbake/recipe/places.h"
 #include "morphbake/sources/common_landmarks.h"
 #include "morphbake/sources/places.h"
 
@@ -149,13 +150,9 @@ void move_positions(Recipe& recipe, std::size_t s, const Affine3d& map) {
   };
   const int source = static_cast<int>(s);
   for (Landmark& landmark : recipe.sources[s].landmarks) move(landmark.at);
-  for (RegionOfInterest& region : recipe.regions) {
-    auto* ball = std::get_if<BallRegion>(&region.shape);
-    if (ball != nullptr && ball->source == source) move(ball->centre);
-  }
-  const bool has_place =
-      recipe.gauge.kind == Gauge::Kind::Landmark || recipe.gauge.kind == Gauge::Kind::Anchor;
-  if (has_place && recipe.gauge.source == source) move(recipe.gauge.at);
+  visit_places(recipe, [&](Place& place, int on, const std::string&) {
+    if (on == source) move(place);
+  });
 }
 
 struct Unlikeness {
