@@ -31,8 +31,8 @@ struct Derivation {
 [[noreturn]] void fail(const Derivation& from, const std::string& field, const char* code,
                        const std::string& message, const std::string& hint) {
   const std::string pointer = child_pointer("/sources", from.derived.name);
-  throw BakeError(Problem{
-      Severity::Error, code, {from.recipe.file.string(), pointer + field, 0, 0}, message, hint});
+  throw BakeError(
+      Problem{Severity::Error, code, location_in(from.recipe, pointer + field), message, hint});
 }
 
 /// d of a region that an edit names.
@@ -133,8 +133,7 @@ BakeError placed(const BakeError& error, const Derivation& from) {
   std::vector<Problem> problems = error.problems();
   for (Problem& problem : problems) {
     if (!problem.location.file.empty()) continue;
-    problem.location.file = from.recipe.file.string();
-    problem.location.pointer = child_pointer("/sources", from.derived.name);
+    problem.location = location_in(from.recipe, child_pointer("/sources", from.derived.name));
   }
   return BakeError(std::move(problems));
 }

@@ -27,9 +27,8 @@ Positions still_positions(const SolvedRecipe& solved, const Still& still,
 
 void warn_of_no_targets(const Recipe& recipe, std::size_t index, const Observer& observer) {
   report(observer,
-         Problem{Severity::Warning,
-                 "basis.nothing-moves",
-                 {recipe.file.string(), fmt::format("/outputs/{}", index), 0, 0},
+         Problem{Severity::Warning, "basis.nothing-moves",
+                 location_in(recipe, fmt::format("/outputs/{}", index)),
                  "no track or key changes any vertex: the file is a plain mesh",
                  "check that regions reach vertices, and that tracks lead to another source"});
 }
@@ -38,9 +37,8 @@ void warn_of_no_targets(const Recipe& recipe, std::size_t index, const Observer&
 void warn_of_targets(const Recipe& recipe, std::size_t index, std::size_t count,
                      const Observer& observer) {
   if (count <= kEngineTargetLimit) return;
-  report(observer, Problem{Severity::Warning,
-                           "export.many-targets",
-                           {recipe.file.string(), fmt::format("/outputs/{}/targets", index), 0, 0},
+  report(observer, Problem{Severity::Warning, "export.many-targets",
+                           location_in(recipe, fmt::format("/outputs/{}/targets", index)),
                            fmt::format("{} morph targets; three.js and Babylon.js read at most {}",
                                        count, kEngineTargetLimit),
                            "use \"targets\": \"tracks\", a lower fps or a shorter timeline"});
@@ -68,9 +66,8 @@ void check_normals(const Recipe& recipe, std::size_t index, const NormalReport& 
   if (is_whole && is_mostly) return;
   const double bound = is_whole ? *bounds.percentile_99 : *bounds.maximum;
   Problem problem{
-      output.unmet_is_error ? Severity::Error : Severity::Warning,
-      "export.normal-error",
-      {recipe.file.string(), fmt::format("/outputs/{}/max_normal_error", index), 0, 0},
+      output.unmet_is_error ? Severity::Error : Severity::Warning, "export.normal-error",
+      location_in(recipe, fmt::format("/outputs/{}/max_normal_error", index)),
       fmt::format(
           "normals are up to {:.2f} degrees off ({:.2f} for 99 in 100), more than the {:.4g} "
           "that are allowed; worst at vertex {} and {:.4g} s",

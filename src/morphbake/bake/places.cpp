@@ -12,7 +12,7 @@ Recipe with_positions(Recipe recipe, const std::vector<SourceMesh>& sources) {
   const auto settle = [&](Place& place, int source, const std::string& pointer) {
     try {
       place = scene_position(sources[static_cast<std::size_t>(source)], place,
-                             {recipe.file.string(), pointer});
+                             location_in(recipe, pointer));
     } catch (const BakeError& error) {
       problems.insert(problems.end(), error.problems().begin(), error.problems().end());
     }

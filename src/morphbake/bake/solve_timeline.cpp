@@ -136,9 +136,8 @@ std::vector<bool> held_vertices(const Recipe& recipe, const RegionFields& region
       if (culprit.empty()) culprit = changed_by(changes, v);
     }
     if (culprit.empty()) continue;
-    problems.push_back({Severity::Error,
-                        "recipe.held-region-changes",
-                        {recipe.file.string(), child_pointer("/hold", i), 0, 0},
+    problems.push_back({Severity::Error, "recipe.held-region-changes",
+                        location_in(recipe, child_pointer("/hold", i)),
                         fmt::format("the region {} is held, but {} changes vertices inside of it",
                                     recipe.regions[static_cast<std::size_t>(region)].name, culprit),
                         "hold a smaller region, or let the edit's region end before it"});
@@ -184,9 +183,8 @@ void check_targets(const Recipe& recipe, bool is_made_of_shapes, const std::stri
   for (std::size_t i = 0; i < recipe.outputs.size(); ++i) {
     const Output& output = recipe.outputs[i];
     if (output.still || output.targets != TargetKind::Tracks) continue;
-    throw BakeError(Problem{Severity::Error,
-                            "recipe.needs-frames",
-                            {recipe.file.string(), child_pointer("/outputs", i), 0, 0},
+    throw BakeError(Problem{Severity::Error, "recipe.needs-frames",
+                            location_in(recipe, child_pointer("/outputs", i)),
                             "\"tracks\" targets are shapes that are solved once; " + reason,
                             "write \"targets\": \"frames\""});
   }
@@ -200,9 +198,7 @@ void check_still_regions(const Recipe& recipe, const RegionFields& regions) {
     const RegionField& field = regions[static_cast<std::size_t>(region)];
     if (!field.moves && (may_flood || !field.floods)) return;
     problems.push_back(
-        {Severity::Error,
-         "recipe.moving-region",
-         {recipe.file.string(), pointer, 0, 0},
+        {Severity::Error, "recipe.moving-region", location_in(recipe, pointer),
          fmt::format("the region {} changes with time", recipe.regions[region].name),
          "name a region that stands still here; a still may name a time instead of a state"});
   };
@@ -287,9 +283,7 @@ void warn_of_spike(const Recipe& recipe, const MorphableMesh& mesh, const Solved
   const double edge = mean_edge(mesh, mesh.geometries[0]);
   const double edges = edge > 0 ? largest / degree / edge : 0;
   report(observer,
-         Problem{Severity::Warning,
-                 "solve.anchor-spike",
-                 {recipe.file.string(), "/gauge/anchor", 0, 0},
+         Problem{Severity::Warning, "solve.anchor-spike", location_in(recipe, "/gauge/anchor"),
                  fmt::format("the anchored vertex stands {:.2g} edge lengths out of its neighbours "
                              "at {:.3g} s: its equation was dropped, and took the whole imbalance",
                              edges, when),

@@ -102,11 +102,8 @@ std::string output_pointer(std::size_t index) { return child_pointer("/outputs",
 void check_output_files(const Recipe& recipe, std::vector<Problem>& problems) {
   const auto complain_at = [&](std::size_t i, const char* code, std::string message,
                                const char* hint) {
-    problems.push_back({Severity::Error,
-                        code,
-                        {recipe.file.string(), output_pointer(i)},
-                        std::move(message),
-                        hint});
+    problems.push_back(
+        {Severity::Error, code, location_in(recipe, output_pointer(i)), std::move(message), hint});
   };
   for (std::size_t i = 0; i < recipe.outputs.size(); ++i) {
     const fs::path& file = recipe.outputs[i].file;

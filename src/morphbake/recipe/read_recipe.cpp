@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "morphbake/json/schema.h"
+#include "morphbake/recipe/includes.h"
 #include "morphbake/recipe/reading.h"
 
 namespace morphbake {
@@ -89,12 +90,16 @@ void read_parts(Reading& reading) {
 }  // namespace
 
 Recipe read_recipe(const std::filesystem::path& file) {
-  const Json document = read_json(file, file.string());
+  const auto [document, parts] = read_with_includes(file);
   std::vector<Problem> problems =
       schema_problems(document, shipped_schema("recipe.schema.json"), {file.string(), ""});
+  for (Problem& problem : problems) {
+    problem.location.file = written_in(parts, problem.location.pointer).string();
+  }
   if (!is_readable(problems)) throw_problems(problems);
   Reading reading{document, std::filesystem::absolute(file).parent_path(), {}, {}, {}};
   reading.recipe.file = file;
+  reading.recipe.parts = parts;
   read_parts(reading);
   add_unexplained(problems, reading.problems);
   throw_problems(std::move(problems));

@@ -147,7 +147,7 @@ std::string kind_of(const Json& region) {
 
 Place read_place(Reading& reading, const Json& at, int source, const std::string& pointer) {
   if (at.is_object()) {
-    return place_of(at, {reading.recipe.file.string(), pointer}, reading.problems);
+    return place_of(at, location_in(reading.recipe, pointer), reading.problems);
   }
   if (source < 0 || !reading.landmarks_known[source]) return Eigen::Vector3d(0, 0, 0);
   const SourceRef& on = reading.recipe.sources[source];

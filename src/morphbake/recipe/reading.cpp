@@ -41,10 +41,8 @@ struct CycleSearch {
 
 void complain(Reading& reading, std::string code, const std::string& pointer, std::string message,
               std::string hint) {
-  reading.problems.push_back({Severity::Error,
-                              std::move(code),
-                              {reading.recipe.file.string(), pointer},
-                              std::move(message),
+  reading.problems.push_back({Severity::Error, std::move(code),
+                              location_in(reading.recipe, pointer), std::move(message),
                               std::move(hint)});
 }
 

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -172,9 +173,16 @@ struct PreviewRequest {
   std::vector<MapKind> maps = {};
 };
 
+/// What one of a recipe's files wrote.
+struct RecipePart {
+  std::string pointer;         ///< in the whole recipe; "" is all that no other part has
+  std::filesystem::path file;  ///< as messages call it
+};
+
 /// A scene recipe, all names resolved to indices, all defaults filled in.
 struct Recipe {
   std::filesystem::path file;
+  std::vector<RecipePart> parts;  ///< where it is written in several files; the first is all of it
   std::string name;
   Units units = Units::Diagonal;
   std::vector<SourceRef> sources;
@@ -189,5 +197,12 @@ struct Recipe {
   std::optional<PreviewRequest> preview;
   std::string options = "{}";  ///< JSON text of the recipe's "options", see bake/options.h
 };
+
+/// The file that wrote what stands at `pointer`: of the longest part there, the last.
+const std::filesystem::path& written_in(const std::vector<RecipePart>& parts,
+                                        std::string_view pointer);
+
+/// Where something stands, for messages.
+Location location_in(const Recipe& recipe, std::string pointer);
 
 }  // namespace morphbake

@@ -104,11 +104,9 @@ Affine3d landmark_map(Align align, const LandmarkPairs& marks) {
 [[noreturn]] void refuse(const Recipe& recipe, std::size_t s, const std::string& message,
                          const std::string& hint) {
   throw BakeError(
-      Problem{Severity::Error,
-              "landmarks.cannot-align",
-              {recipe.file.string(), child_pointer("/sources", recipe.sources[s].name) + "/align"},
-              message,
-              hint});
+      Problem{Severity::Error, "landmarks.cannot-align",
+              location_in(recipe, child_pointer("/sources", recipe.sources[s].name) + "/align"),
+              message, hint});
 }
 
 /// The map of source `s` onto the first one.
@@ -183,10 +181,8 @@ void warn_of_unlike(const Recipe& recipe, const std::vector<SourceMesh>& sources
                           recipe.sources[s].name, unlike.away, recipe.sources[0].name);
   }
   if (message.empty()) return;
-  report(observer, {Severity::Warning,
-                    "sources.unlike",
-                    {recipe.file.string(), child_pointer("/sources", recipe.sources[s].name)},
-                    message,
+  report(observer, {Severity::Warning, "sources.unlike",
+                    location_in(recipe, child_pointer("/sources", recipe.sources[s].name)), message,
                     "if that is not meant, write \"align\": \"similarity\" beside its \"file\""});
 }
 

@@ -68,11 +68,8 @@ std::vector<EditToFit> edits_to_fit(Recipe& recipe) {
 
 [[noreturn]] void fail(const Recipe& recipe, const EditToFit& edit, const std::string& message,
                        const std::string& hint) {
-  throw BakeError(Problem{Severity::Error,
-                          "recipe.cannot-fit",
-                          {recipe.file.string(), edit.pointer, 0, 0},
-                          message,
-                          hint});
+  throw BakeError(Problem{Severity::Error, "recipe.cannot-fit", location_in(recipe, edit.pointer),
+                          message, hint});
 }
 
 Positions fitted_shape(const Recipe& recipe, const MorphableMesh& mesh, const RegionFields& regions,

@@ -215,8 +215,8 @@ std::vector<Eigen::VectorXd> mask_values(const MorphableMesh& mesh, const Recipe
   for (std::size_t r = 0; r < values.size(); ++r) {
     const auto* mask = std::get_if<MaskRegion>(&recipe.regions[r].shape);
     if (mask == nullptr) continue;
-    const Location where{recipe.file.string(),
-                         child_pointer("/regions", recipe.regions[r].name) + "/mask", 0, 0};
+    const Location where =
+        location_in(recipe, child_pointer("/regions", recipe.regions[r].name) + "/mask");
     values[r] = values_of({originals[static_cast<std::size_t>(mask->source)], *mask, mesh, where});
   }
   return values;

@@ -31,7 +31,7 @@ Eigen::VectorXd soft_step(const Eigen::VectorXd& r, double inner, double outer) 
 /// The region's pointer, of the field `kind`.
 Location location_of(const Recipe& recipe, std::size_t region, const std::string& kind) {
   const std::string& name = recipe.regions[region].name;
-  return {recipe.file.string(), child_pointer("/regions", name) + "/" + kind, 0, 0};
+  return location_in(recipe, child_pointer("/regions", name) + "/" + kind);
 }
 
 /// Distances from sets of points of one source that several regions ask for.

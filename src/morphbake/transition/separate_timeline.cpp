@@ -64,14 +64,12 @@ void add_term(Terms& terms, const Factors& factors, const Eigen::MatrixXd& field
 
 void check_term_count(const Recipe& recipe, std::size_t count) {
   if (count <= kFieldLimit) return;
-  throw BakeError(
-      Problem{Severity::Error,
-              "transition.too-many-overlaps",
-              {recipe.file.string(), "/timeline/tracks", 0, 0},
-              fmt::format("the tracks need more than {} shapes: one each, and one for each "
-                          "combination that overlaps in space and time",
-                          kFieldLimit - 1),
-              "use fewer tracks, and let those that share a region follow one another"});
+  throw BakeError(Problem{
+      Severity::Error, "transition.too-many-overlaps", location_in(recipe, "/timeline/tracks"),
+      fmt::format("the tracks need more than {} shapes: one each, and one for each "
+                  "combination that overlaps in space and time",
+                  kFieldLimit - 1),
+      "use fewer tracks, and let those that share a region follow one another"});
 }
 
 /// m S of an edit, at every vertex and axis: #sources by #V, or 3 #V.
