@@ -80,9 +80,7 @@ MeshMorph morph_of(const Mesh& mesh, int targets) {
     morph.primitives[0].target_normals.push_back(normals * 0.1F);
     morph.target_names.push_back(fmt::format("t{}", k));
   }
-  morph.animation_name = "bench";
-  morph.key_times = {0, 1};
-  morph.key_weights = Eigen::MatrixXf::Identity(2, targets);
+  morph.clips = {{"bench", {0, 1}, Eigen::MatrixXf::Identity(2, targets)}};
   return morph;
 }
 

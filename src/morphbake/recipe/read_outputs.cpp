@@ -24,6 +24,30 @@ Still read_still(Reading& reading, const Json& at, const std::string& pointer) {
   return {time};
 }
 
+/// All of the timeline by the recipe's name, or parts of it by names of their own.
+std::vector<Clip> read_clips(Reading& reading, const Json& output, const std::string& pointer) {
+  const double duration = reading.recipe.timeline.duration;
+  if (!output.contains("clips")) return {{reading.recipe.name, 0, duration}};
+  std::vector<Clip> clips;
+  for (const auto& [name, json] : output["clips"].items()) {
+    const std::string at = child_pointer(pointer + "/clips", name);
+    const Clip clip{name, json["begin"].get<double>(), json["end"].get<double>()};
+    if (clip.end <= clip.begin) {
+      complain(
+          reading, "recipe.out-of-range", at + "/end",
+          fmt::format("this clip ends at {} s, before it has begun at {} s", clip.end, clip.begin),
+          "a clip lasts a while");
+    }
+    if (clip.end > duration && duration > 0) {
+      complain(reading, "recipe.out-of-range", at + "/end",
+               fmt::format("{} s is after the end of the timeline, at {} s", clip.end, duration),
+               "");
+    }
+    clips.push_back(clip);
+  }
+  return clips;
+}
+
 NormalBounds read_normal_bounds(const Json& output) {
   const Json json = output.value("max_normal_error", Json());
   NormalBounds bounds;
@@ -46,11 +70,15 @@ Output read_output(Reading& reading, const Json& json, const std::string& pointe
   if (json.value("targets", "") == "tracks") output.targets = TargetKind::Tracks;
   output.max_normal_error = read_normal_bounds(json);
   output.unmet_is_error = json.value("unmet", "") != "warning";
-  if (!json.contains("still")) return output;
+  if (!json.contains("still")) {
+    output.clips = read_clips(reading, json, pointer);
+    return output;
+  }
   output.still = read_still(reading, json["still"]["at"], pointer + "/still/at");
-  if (json.contains("targets")) {
-    complain(reading, "recipe.conflicting-fields", pointer + "/targets",
-             "\"still\" and \"targets\" exclude each other",
+  for (const char* field : {"targets", "clips"}) {
+    if (!json.contains(field)) continue;
+    complain(reading, "recipe.conflicting-fields", child_pointer(pointer, field),
+             fmt::format("\"still\" and \"{}\" exclude each other", field),
              "a still is a plain mesh without morph targets: keep one of them");
   }
   return output;

@@ -149,8 +149,16 @@ struct NormalBounds {
   std::optional<double> maximum;
 };
 
+/// A part of the timeline that is an animation of its own.
+struct Clip {
+  std::string name;
+  double begin = 0;  ///< seconds
+  double end = 0;    ///< seconds, > begin
+};
+
 struct Output {
   std::filesystem::path file;  ///< absolute, .glb
+  std::vector<Clip> clips;     ///< one at least, but for stills
   TargetKind targets = TargetKind::Auto;
   std::optional<Still> still;
   NormalBounds max_normal_error;
