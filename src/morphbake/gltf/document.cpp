@@ -10,6 +10,7 @@
 
 #include "morphbake/diagnostics/problem.h"
 #include "morphbake/files/files.h"
+#include "morphbake/gltf/animation_pointer.h"
 #include "morphbake/gltf/check_document.h"
 #include "morphbake/gltf/resources.h"
 #include "morphbake/gltf/size_limits.h"
@@ -58,6 +59,11 @@ std::string json_chunk(const GltfDocument& document, const std::string& bytes) {
 /// Broken JSON in a source is a problem of the source, not of the recipe: "json.syntax" is
 /// "gltf.json-syntax".
 Json parse_source_json(const GltfDocument& document, const std::string& text) {
+  if (text.size() > kMostJsonBytes) {
+    fail_at(document, "", "gltf.too-large",
+            fmt::format("the JSON has {} bytes, more than {}", text.size(), kMostJsonBytes),
+            "export a .glb, or a .gltf with its data in files beside it");
+  }
   try {
     // Data URIs are long; no pattern is ever matched against them.
     const JsonLimits limits{text.size(), kMostJsonValues};
@@ -181,6 +187,10 @@ GltfFile open_gltf(const fs::path& file) {
 GltfFile open_gltf_bytes(const std::string& bytes, const fs::path& name) {
   auto document = std::make_shared<GltfDocument>();
   document->file = name;
+  if (bytes.starts_with("\xEF\xBB\xBF")) {
+    fail_at(*document, "", "gltf.not-gltf", "the file begins with a byte order mark",
+            "JSON has none: save it as UTF-8 without");
+  }
   const std::size_t first = bytes.find_first_not_of(" \t\r\n");
   if (!is_binary(bytes) && (first == std::string::npos || bytes[first] != '{')) {
     fail_at(*document, "", "gltf.not-gltf", "this is neither a .glb nor the JSON of a .gltf",
@@ -192,6 +202,7 @@ GltfFile open_gltf_bytes(const std::string& bytes, const fs::path& name) {
   std::vector<Bytes> buffers = read_buffers(*document, binary_chunk(*document, bytes));
   if (is_packed(document->json)) unpack(*document, buffers);
   document->model = parse_model(*document);
+  follow_pointers(*document);
   for (Bytes& buffer : buffers) document->model.buffers.emplace_back().data = std::move(buffer);
   document->model.images = read_images(*document);
   return document;
