@@ -74,7 +74,8 @@ void check_required_extensions(const GltfDocument& document) {
     const std::string name = (*required)[i].is_string() ? (*required)[i].get<std::string>() : "";
     if (is_known_extension(name)) continue;
     fail_at(document, array_pointer("extensionsRequired", i), "gltf.unsupported-extension",
-            fmt::format("the file requires the extension \"{}\", which is not supported", name),
+            fmt::format("the file requires the extension {}, which is not supported",
+                        shown(Json(name))),
             "export it without that extension");
   }
 }

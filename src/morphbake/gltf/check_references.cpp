@@ -64,14 +64,20 @@ std::vector<std::string_view> keys_of(std::string_view fields) {
 
 struct Dangling {
   Json::json_pointer at;
-  std::uint64_t index = 0;
+  std::string index;
 };
+
+/// Whether it is a number, and no index of `count` things.
+bool is_beyond(const Json& value, std::size_t count) {
+  if (!value.is_number_integer()) return false;
+  return !value.is_number_unsigned() || value.get<std::uint64_t>() >= count;
+}
 
 /// The first number at `path` that is no index of `count` things.
 std::optional<Dangling> find_dangling(const Json& value, Path path, std::size_t count) {
   if (path.empty()) {
-    if (!value.is_number_unsigned() || value.get<std::uint64_t>() < count) return std::nullopt;
-    return Dangling{Json::json_pointer(), value.get<std::uint64_t>()};
+    if (!is_beyond(value, count)) return std::nullopt;
+    return Dangling{Json::json_pointer(), value.dump()};
   }
   const auto find_below = [&](const Json& below, auto key) {
     std::optional<Dangling> found = find_dangling(below, path.subspan(1), count);
@@ -93,6 +99,27 @@ std::optional<Dangling> find_dangling(const Json& value, Path path, std::size_t 
   return std::nullopt;
 }
 
+[[noreturn]] void fail_dangling(const GltfDocument& document, const Dangling& found,
+                                const char* kind, std::size_t count, const char* owner) {
+  fail_at(document, found.at.to_string(), "gltf.invalid",
+          fmt::format("{} {} does not exist; the {} has {}", kind, found.index, owner, count),
+          "its exporter is at fault; export it again");
+}
+
+/// Channels have a sampler of their own animation.
+void check_channels(const GltfDocument& document) {
+  static constexpr std::string_view kSampler[] = {"*", "sampler"};
+  const auto animations = document.json.find("animations");
+  for (std::size_t a = 0; animations != document.json.end() && a < animations->size(); ++a) {
+    const Json& animation = (*animations)[a];
+    const std::size_t count = animation.at("samplers").size();
+    std::optional<Dangling> found = find_dangling(animation.at("channels"), kSampler, count);
+    if (!found) continue;
+    found->at = Json::json_pointer() / "animations" / a / "channels" / found->at;
+    fail_dangling(document, *found, "sampler", count, "animation");
+  }
+}
+
 }  // namespace
 
 void check_references(const GltfDocument& document) {
@@ -102,12 +129,9 @@ void check_references(const GltfDocument& document) {
     const std::size_t count = list == json.end() ? 0 : list->size();
     const std::vector<std::string_view> keys = keys_of(reference.fields);
     const std::optional<Dangling> found = find_dangling(json, keys, count);
-    if (!found) continue;
-    fail_at(
-        document, found->at.to_string(), "gltf.invalid",
-        fmt::format("{} {} does not exist; the file has {}", reference.kind, found->index, count),
-        "its exporter is at fault; export it again");
+    if (found) fail_dangling(document, *found, reference.kind, count, "file");
   }
+  check_channels(document);
 }
 
 }  // namespace morphbake

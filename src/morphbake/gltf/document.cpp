@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <cstring>
 #include <utility>
@@ -56,6 +57,27 @@ std::string json_chunk(const GltfDocument& document, const std::string& bytes) {
   return bytes.substr(kHeader + kChunkHeader, length);
 }
 
+/// Makes whole numbers integers: JSON has one kind of number, and some exporters write an index as
+/// 1.0. Nesting was bounded when the JSON was read.
+void make_integers(Json& json) {
+  constexpr double kExact = 9007199254740992;  // up to here doubles have all integers
+  if (json.is_number_float()) {
+    const double number = json.get<double>();
+    if (number != std::floor(number) || std::abs(number) >= kExact) return;
+    if (number < 0) {
+      json = static_cast<std::int64_t>(number);
+    } else {
+      json = static_cast<std::uint64_t>(number);
+    }
+  } else if (json.is_array()) {
+    for (Json& each : json) make_integers(each);
+  } else if (json.is_object()) {
+    for (auto& [name, value] : json.items()) {
+      if (name != "extras") make_integers(value);
+    }
+  }
+}
+
 /// Broken JSON in a source is a problem of the source, not of the recipe: "json.syntax" is
 /// "gltf.json-syntax".
 Json parse_source_json(const GltfDocument& document, const std::string& text) {
@@ -67,7 +89,9 @@ Json parse_source_json(const GltfDocument& document, const std::string& text) {
   try {
     // Data URIs are long; no pattern is ever matched against them.
     const JsonLimits limits{text.size(), kMostJsonValues};
-    return parse_json(text, document.file.string(), limits);
+    Json json = parse_json(text, document.file.string(), limits);
+    make_integers(json);
+    return json;
   } catch (const BakeError& error) {
     std::vector<Problem> problems = error.problems();
     for (Problem& problem : problems) problem.code.replace(0, 5, "gltf.json-");

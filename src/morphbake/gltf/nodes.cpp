@@ -10,10 +10,11 @@
 
 #include "morphbake/gltf/names.h"
 #include "morphbake/gltf/skin.h"
-#include "morphbake/json/nearest.h"
 
 namespace morphbake {
 namespace {
+
+constexpr std::size_t kMostShown = 20;  // nodes in a message
 
 struct Visit {
   int node;
@@ -75,16 +76,22 @@ void visit_trees(const GltfDocument& document, const std::vector<int>& roots,
   }
 }
 
-/// "hat" (node 3)
+/// 3, or "hat" (3)
 std::string shown_node(const GltfDocument& document, int node) {
   const std::string& name = document.model.nodes[static_cast<std::size_t>(node)].name;
-  return name.empty() ? fmt::format("{}", node) : fmt::format("\"{}\"", name);
+  return name.empty() ? fmt::format("{}", node) : fmt::format("{} ({})", shown(Json(name)), node);
 }
 
 std::string shown_nodes(const GltfDocument& document, const std::vector<int>& nodes) {
-  std::vector<std::string> names;
-  for (const int node : nodes) names.push_back(shown_node(document, node));
-  return name_list(names);
+  std::vector<std::string> shown;
+  for (const int node : nodes) {
+    if (shown.size() == kMostShown) {
+      shown.push_back(fmt::format("and {} more", nodes.size() - kMostShown));
+      break;
+    }
+    shown.push_back(shown_node(document, node));
+  }
+  return fmt::format("{}", fmt::join(shown, ", "));
 }
 
 bool has_mesh(const GltfDocument& document, int node) {

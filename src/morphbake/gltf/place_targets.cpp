@@ -86,8 +86,13 @@ void append_targets(MorphWriting& writing, StillDisplacements& still, const Prim
 void name_targets(MorphWriting& writing) {
   Json& extras = mesh_of(writing)["extras"];
   if (!extras.is_null() && !extras.is_object()) extras = Json{{"extras", std::move(extras)}};
+  if (extras.contains("targetNames") && !extras["targetNames"].is_array()) {
+    Json other = std::move(extras["targetNames"]);  // whatever it means to its owner
+    extras["targetNames"] = Json::array();
+    extras["targetNames-2"] = std::move(other);
+  }
   Json& names = extras["targetNames"];
-  if (!names.is_array()) names = Json::array();
+  if (names.is_null()) names = Json::array();
   names.get_ref<Json::array_t&>().resize(std::min(names.size(), writing.own_targets));
   while (names.size() < writing.own_targets) names.push_back(std::to_string(names.size()));
   std::set<std::string> taken;

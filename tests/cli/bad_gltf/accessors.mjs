@@ -52,6 +52,9 @@ const accessors = {
   'doubles': [set('accessors.0.componentType', 5130), '#/accessors/0/componentType', '[gltf.wrong-type]'],
   'unknown element type': [set('accessors.0.type', 'VEC9'), '#/accessors/0/type', '[gltf.bad-value]'],
   'accessor without a type': [set('accessors.0.type', undefined), '#/accessors/0', '[gltf.missing-field]'],
+  'fewer texture coordinates than positions': [(g) => {
+    g.meshes[0].primitives[0].attributes.TEXCOORD_0 = addAccessor(g, new Float32Array(4), 'VEC2', FLOAT);
+  }, '#/meshes/0/primitives/0/attributes/TEXCOORD_0', ACCESSOR],
   'missing accessor': [set('meshes.0.primitives.0.attributes.POSITION', 77), POSITION, INVALID],
   'accessor -1': [set('meshes.0.primitives.0.attributes.POSITION', -1), POSITION, OUT_OF_RANGE],
   'accessor of four billion': [set('meshes.0.primitives.0.attributes.POSITION', 4294967295), POSITION, INVALID],

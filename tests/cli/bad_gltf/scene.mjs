@@ -57,6 +57,11 @@ const dangling = {
     '#/materials/0/pbrMetallicRoughness/baseColorTexture/index', INVALID],
   'missing image': [set('textures', [{ source: 0 }]), '#/textures/0/source', INVALID],
   'missing texture sampler': [set('textures', [{ sampler: 7 }]), '#/textures/0/sampler', INVALID],
+  'texture -1': [set('materials', [{ emissiveTexture: { index: -1 } }]), '#/materials/0/emissiveTexture/index', 'gltf.'],
+  'missing sampler of a node that is not morphed': [(g) => {
+    g.nodes.push({});
+    g.animations = [{ samplers: [], channels: [{ sampler: 0, target: { node: 1, path: 'scale' } }] }];
+  }, '#/animations/0/channels/0/sampler', INVALID],
   'missing camera': [set('nodes.0.camera', 0), '#/nodes/0/camera', INVALID],
   'missing colours of a target': [set('meshes.0.primitives.0.targets', [{ POSITION: 0, COLOR_0: 44 }]), `${P}/targets/0/COLOR_0`, INVALID],
   'another mesh without its points': [(g) => g.meshes.push({ primitives: [{ attributes: { POSITION: 99 } }] }),
@@ -149,7 +154,7 @@ const animations = {
   'text for a channel\'s sampler': [animated((g) => { g.animations[0].channels[0].sampler = 'x'; }), '#/animations/0', 'gltf.'],
   'text for a channel\'s node': [animated((g) => { g.animations[0].channels[0].target.node = 'x'; }), '#/animations/0', 'gltf.'],
   'sampler of four billion': [animated((g) => { g.animations[0].channels[0].sampler = 4294967295; }), '#/animations/0', 'gltf.'],
-  'missing sampler': [animated((g) => { g.animations[0].channels[0].sampler = 8; }), '#/animations/0', INVALID],
+  'missing sampler': [animated((g) => { g.animations[0].channels[0].sampler = 8; }), '#/animations/0/channels/0/sampler', INVALID],
   'sampler -1': [animated((g) => { g.animations[0].channels[0].sampler = -1; }), '#/animations/0', 'gltf.'],
   'text for a key': [animated((g, s) => { s.input = 'x'; }), '#/animations/0', 'gltf.'],
   'sampler without an output': [animated((g, s) => { delete s.output; }), '#/animations/0', 'gltf.'],

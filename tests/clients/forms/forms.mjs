@@ -575,6 +575,16 @@ const strangers = (kinds, place) => async (which) => {
 
 const percentEncoded = (bytes, type) => `data:${type},${[...bytes].map((b) => `%${b.toString(16).padStart(2, '0')}`).join('')}`;
 
+/** Indices and counts as some exporters write them: 1.0 for 1, but for numbers of extras. */
+async function floatingIntegers(which) {
+  const { main, files } = await external(which);
+  const text = files[main].toString();
+  const parts = text.match(/"(?:\\.|[^"\\])*"|[^"]+/g);
+  const pointed = parts.map((part) => (part.startsWith('"') ? part : part.replace(/(?<![\d.eE+-])\d+(?![\d.eE])/g, '$&.0')));
+  files[main] = Buffer.from(pointed.join(''));
+  return { main, files };
+}
+
 const picturesBeside = strangers(STRANGERS, (files, bytes, type, name) => { files[name] = bytes; return name; });
 const picturesInUris = strangers(STRANGERS.slice(0, 1), (files, bytes, type) =>
   (type === 'image/png' ? percentEncoded : gltf.dataUri)(bytes, type));
@@ -625,6 +635,7 @@ export const FORMS = {
   'data-uris': { make: dataUris },
   'external': { make: external },
   'beside-glb': { make: besideGlb },
+  'floating-integers': { make: floatingIntegers },
   'pictures-beside': { make: picturesBeside },
   'pictures-in-uris': { make: picturesInUris },
   'textured': { make: single(textured) },
