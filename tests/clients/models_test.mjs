@@ -28,7 +28,7 @@ const REFUSED = {
   'MissingBin/BoxTextured.gltf': ['gltf.missing-file', '#/buffers/0/uri', 'BoxTextured0.bin'],
   'RecursiveNodes/RecursiveNodes.gltf': ['gltf.invalid', '#/nodes/'],
   'SchemaFailures/sceneWrongType.gltf': ['gltf.wrong-type', '#/scene', '"hello"'],
-  'TestNoRootNode/NoScene.gltf': ['gltf.no-mesh'],
+  'TestNoRootNode/NoScene.gltf': ['gltf.invalid'],
   'TestNoRootNode/SceneWithoutNodes.gltf': ['gltf.no-mesh'],
   'wrongTypes/badArray.gltf': ['gltf.wrong-type', '#/meshes/0/primitives'],
 };

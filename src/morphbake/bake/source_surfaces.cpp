@@ -68,6 +68,7 @@ void check_is_surface(const SourceMesh& source, const MorphableMesh& shared) {
   }
   own.triangles.conservativeResize(rows, 3);
   check_manifold(source, own, points);
+  check_hubs(source, own, points);
 }
 
 /// Every landmark is a vertex.

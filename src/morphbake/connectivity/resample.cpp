@@ -40,7 +40,9 @@ constexpr int kAttempts = 20;        // at finer and finer edges
 constexpr double kFiner = 0.75;      // of the next attempt's edges
 constexpr double kFull = 0.97;       // of max_vertices: what the finest attempt aims at
 constexpr double kSameEdges = 0.99;  // of the last attempt's: not worth another
-constexpr double kFlat = 1e-6;       // height over longest side: below, all is rounding to float
+constexpr double kSpareSplits = 1e6;
+constexpr double kSplitsPerVertex = 8;  // of max_vertices
+constexpr double kFlat = 1e-6;          // height over longest side: below, all is rounding to float
 constexpr int kNoLandmark = -1;
 
 /// The first source's surface on its way to the new connectivity. What must stay is marked on it,
@@ -323,6 +325,30 @@ void check_vertex_count(const SourceSurface& first, double count, const RemeshOp
       fmt::format("a target_edge_length of {:.2g} fits, or allow more vertices", 1.05 * fitting)});
 }
 
+/// Long thin triangles are first split all along and only then merged: a cone of 100,000 triangles
+/// took minutes and gigabytes.
+void check_split_count(const SourceSurface& first, double edge_length,
+                       const RemeshOptions& options) {
+  double splits = 0;
+  for (const auto& corners : first.mesh.triangles.rowwise()) {
+    for (int k = 0; k < 3; ++k) {
+      const auto a = first.mesh.positions.row(corners(k));
+      const auto b = first.mesh.positions.row(corners((k + 1) % 3));
+      splits += std::max(0.0, (a - b).norm() / edge_length - 1) / 2;  // an edge has two triangles
+    }
+  }
+  const double most = kSpareSplits + kSplitsPerVertex * options.max_vertices;
+  if (splits <= most) return;
+  throw BakeError(
+      Problem{Severity::Error,
+              "connectivity.too-thin",
+              {first.file, "", 0, 0},
+              fmt::format("the triangles of \"{}\" are so long and thin that about {:.0f} splits "
+                          "would go before; {:.0f} are the most",
+                          first.name, splits, most),
+              "remesh it in a modeller first, or allow more max_vertices"});
+}
+
 }  // namespace
 
 SharedTriangulation resample(const std::vector<SourceSurface>& surfaces,
@@ -333,6 +359,7 @@ SharedTriangulation resample(const std::vector<SourceSurface>& surfaces,
   const double area = triangle_areas(first.mesh.positions, first.mesh.triangles).sum();
   double edge_length = options.target_edge_length * bounding_diagonal(first.mesh.positions);
   check_vertex_count(first, expected_vertices(area, edge_length), options);
+  check_split_count(first, edge_length, options);
   const LandmarkedMesh landmarked = insert_landmarks(first);
   SharedTriangulation best;
   double fitting_length = edge_length;

@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <cstring>
 #include <utility>
@@ -10,6 +11,7 @@
 
 #include "morphbake/diagnostics/problem.h"
 #include "morphbake/files/files.h"
+#include "morphbake/gltf/animation_pointer.h"
 #include "morphbake/gltf/check_document.h"
 #include "morphbake/gltf/resources.h"
 #include "morphbake/gltf/size_limits.h"
@@ -55,13 +57,41 @@ std::string json_chunk(const GltfDocument& document, const std::string& bytes) {
   return bytes.substr(kHeader + kChunkHeader, length);
 }
 
+/// Makes whole numbers integers: JSON has one kind of number, and some exporters write an index as
+/// 1.0. Nesting was bounded when the JSON was read.
+void make_integers(Json& json) {
+  constexpr double kExact = 9007199254740992;  // up to here doubles have all integers
+  if (json.is_number_float()) {
+    const double number = json.get<double>();
+    if (number != std::floor(number) || std::abs(number) >= kExact) return;
+    if (number < 0) {
+      json = static_cast<std::int64_t>(number);
+    } else {
+      json = static_cast<std::uint64_t>(number);
+    }
+  } else if (json.is_array()) {
+    for (Json& each : json) make_integers(each);
+  } else if (json.is_object()) {
+    for (auto& [name, value] : json.items()) {
+      if (name != "extras") make_integers(value);
+    }
+  }
+}
+
 /// Broken JSON in a source is a problem of the source, not of the recipe: "json.syntax" is
 /// "gltf.json-syntax".
 Json parse_source_json(const GltfDocument& document, const std::string& text) {
+  if (text.size() > kMostJsonBytes) {
+    fail_at(document, "", "gltf.too-large",
+            fmt::format("the JSON has {} bytes, more than {}", text.size(), kMostJsonBytes),
+            "export a .glb, or a .gltf with its data in files beside it");
+  }
   try {
     // Data URIs are long; no pattern is ever matched against them.
     const JsonLimits limits{text.size(), kMostJsonValues};
-    return parse_json(text, document.file.string(), limits);
+    Json json = parse_json(text, document.file.string(), limits);
+    make_integers(json);
+    return json;
   } catch (const BakeError& error) {
     std::vector<Problem> problems = error.problems();
     for (Problem& problem : problems) problem.code.replace(0, 5, "gltf.json-");
@@ -181,6 +211,10 @@ GltfFile open_gltf(const fs::path& file) {
 GltfFile open_gltf_bytes(const std::string& bytes, const fs::path& name) {
   auto document = std::make_shared<GltfDocument>();
   document->file = name;
+  if (bytes.starts_with("\xEF\xBB\xBF")) {
+    fail_at(*document, "", "gltf.not-gltf", "the file begins with a byte order mark",
+            "JSON has none: save it as UTF-8 without");
+  }
   const std::size_t first = bytes.find_first_not_of(" \t\r\n");
   if (!is_binary(bytes) && (first == std::string::npos || bytes[first] != '{')) {
     fail_at(*document, "", "gltf.not-gltf", "this is neither a .glb nor the JSON of a .gltf",
@@ -192,6 +226,7 @@ GltfFile open_gltf_bytes(const std::string& bytes, const fs::path& name) {
   std::vector<Bytes> buffers = read_buffers(*document, binary_chunk(*document, bytes));
   if (is_packed(document->json)) unpack(*document, buffers);
   document->model = parse_model(*document);
+  follow_pointers(*document);
   for (Bytes& buffer : buffers) document->model.buffers.emplace_back().data = std::move(buffer);
   document->model.images = read_images(*document);
   return document;

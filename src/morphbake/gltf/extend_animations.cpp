@@ -1,17 +1,16 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <charconv>
 #include <map>
 #include <optional>
 #include <set>
 #include <string>
-#include <string_view>
 #include <tuple>
 #include <utility>
 
 #include "morphbake/gltf/accessors.h"
 #include "morphbake/gltf/animation_curve.h"
+#include "morphbake/gltf/animation_pointer.h"
 #include "morphbake/gltf/morph_writing.h"
 #include "morphbake/gltf/replace_accessor.h"
 
@@ -38,20 +37,6 @@ Curve curve_of(const Json& sampler) {
           sampler.value("interpolation", "LINEAR")};
 }
 
-/// The number in "/nodes/3/weights" for `list` "nodes".
-std::optional<std::size_t> index_in(std::string_view pointer, const std::string& list) {
-  const std::string begin = "/" + list + "/";
-  constexpr std::string_view kEnd = "/weights";
-  if (!pointer.starts_with(begin) || !pointer.ends_with(kEnd)) return {};
-  if (pointer.size() <= begin.size() + kEnd.size()) return {};
-  const char* first = pointer.data() + begin.size();
-  const char* last = pointer.data() + pointer.size() - kEnd.size();
-  std::size_t index = 0;
-  const auto [end, error] = std::from_chars(first, last, index);
-  if (error != std::errc() || end != last) return {};
-  return index;
-}
-
 /// The morph's mesh, and the nodes that show it. Lists of the root are looked up once, since it may
 /// have many fields.
 struct Subject {
@@ -68,23 +53,17 @@ Subject subject_of(const MorphWriting& writing) {
   return subject;
 }
 
-/// What a channel of KHR_animation_pointer moves; "" when it says nothing.
-std::string pointer_of(const Json& target) {
-  static const Json::json_pointer place("/extensions/KHR_animation_pointer/pointer");
-  const bool is_told = target.contains(place) && target.at(place).is_string();
-  return is_told ? target.at(place).get<std::string>() : std::string();
-}
-
 /// Whether a channel moves the weights of the morph's mesh.
 bool moves_weights(const Subject& subject, const Json& channel) {
   const Json& target = channel.at("target");
   if (target.at("path") == "weights") {
     return target.contains("node") && subject.nodes.contains(target["node"].get<std::size_t>());
   }
-  if (target.at("path") != "pointer") return false;
-  const std::string pointer = pointer_of(target);
-  if (const auto node = index_in(pointer, "nodes")) return subject.nodes.contains(*node);
-  return index_in(pointer, "meshes") == static_cast<std::size_t>(subject.writing.mesh);
+  const std::optional<PointedProperty> pointed = pointed_property(target);
+  if (!pointed || pointed->property != "weights") return false;
+  if (pointed->list == "nodes") return subject.nodes.contains(pointed->index);
+  return pointed->list == "meshes" &&
+         pointed->index == static_cast<std::size_t>(subject.writing.mesh);
 }
 
 void check_channel(const MorphWriting& writing, std::size_t animation, std::size_t sampler,

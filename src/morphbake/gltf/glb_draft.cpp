@@ -65,6 +65,24 @@ Json one_buffer(const GlbDraft& draft) {
   return buffer;
 }
 
+/// What buffers have besides bytes: the one that is left has the first one's, and in its extras
+/// what the others had.
+void keep_buffer_fields(Json& json) {
+  const auto buffers = json.find("buffers");
+  if (buffers == json.end() || buffers->size() < 2) return;
+  Json others = Json::array();
+  for (std::size_t b = 1; b < buffers->size(); ++b) {
+    Json fields = std::move((*buffers)[b]);
+    for (const char* field : {"uri", "byteLength"}) fields.erase(field);
+    if (!fields.empty()) others.push_back(std::move(fields));
+  }
+  buffers->erase(buffers->begin() + 1, buffers->end());
+  if (others.empty()) return;
+  Json& extras = buffers->front()["extras"];
+  if (!extras.is_null() && !extras.is_object()) extras = Json{{"extras", std::move(extras)}};
+  extras["joined"] = std::move(others);
+}
+
 }  // namespace
 
 GlbDraft join_buffers(Json json, const std::vector<std::string_view>& buffers) {
@@ -77,6 +95,7 @@ GlbDraft join_buffers(Json json, const std::vector<std::string_view>& buffers) {
     draft.buffer_begins.push_back(draft.binary.size());
     draft.binary.append(buffer);
   }
+  keep_buffer_fields(draft.json);
   for (Json& view : draft.views) {
     const std::size_t begin = draft.buffer_begins.at(view.at("buffer").get<std::size_t>());
     view["buffer"] = 0;

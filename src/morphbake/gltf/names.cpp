@@ -29,11 +29,12 @@ int index_of_choice(const GltfDocument& document, const NameOrIndex& choice,
   const auto& name = std::get<std::string>(choice);
   const auto found = std::find(names.begin(), names.end(), name);
   if (found == names.end()) {
-    fail_at(document, pointer, code, fmt::format("there is no {} \"{}\"", kind, name),
+    fail_at(document, pointer, code, fmt::format("there is no {} {}", kind, shown(Json(name))),
             names.empty() ? index_hint(kind, 0) : name_hint(name, names, kind + "s"));
   }
   if (std::find(found + 1, names.end(), name) != names.end()) {
-    fail_at(document, pointer, code, fmt::format("several {}s are called \"{}\"", kind, name),
+    fail_at(document, pointer, code,
+            fmt::format("more than one {} is called {}", kind, shown(Json(name))),
             fmt::format("choose one by its index; the first is {}", found - names.begin()));
   }
   return static_cast<int>(found - names.begin());

@@ -10,10 +10,11 @@
 
 #include "morphbake/gltf/names.h"
 #include "morphbake/gltf/skin.h"
-#include "morphbake/json/nearest.h"
 
 namespace morphbake {
 namespace {
+
+constexpr std::size_t kMostShown = 20;  // nodes in a message
 
 struct Visit {
   int node;
@@ -41,10 +42,7 @@ std::vector<int> parentless_nodes(const tinygltf::Model& model) {
 std::vector<int> shown_roots(const GltfDocument& document) {
   const tinygltf::Model& model = document.model;
   if (model.scenes.empty()) return parentless_nodes(model);
-  const int scene = model.defaultScene < 0 ? 0 : model.defaultScene;
-  if (static_cast<std::size_t>(scene) >= model.scenes.size()) {
-    fail_at(document, "/scene", "gltf.invalid", fmt::format("scene {} does not exist", scene));
-  }
+  const int scene = std::max(0, model.defaultScene);
   return model.scenes[static_cast<std::size_t>(scene)].nodes;
 }
 
@@ -63,34 +61,37 @@ void visit_trees(const GltfDocument& document, const std::vector<int>& roots,
     const Visit visit = stack.back();
     stack.pop_back();
     const auto index = static_cast<std::size_t>(visit.node);
-    const std::string pointer = fmt::format("/nodes/{}", visit.node);
-    if (visit.node < 0 || index >= locals.size()) {
-      fail_at(document, pointer, "gltf.invalid", fmt::format("node {} does not exist", visit.node));
-    }
     if (visited[index]) {
-      fail_at(document, pointer, "gltf.invalid",
-              "the node has several parents or is its own ancestor");
+      fail_at(document, fmt::format("/nodes/{}", visit.node), "gltf.invalid",
+              "the node has several parents, is its own ancestor, or is listed twice");
     }
     visited[index] = true;
     order.nodes.push_back(visit.node);
     order.to_scene[index] = visit.parent_to_scene * locals[index];
     if (!order.to_scene[index].allFinite()) {
-      fail_at(document, pointer, "gltf.not-finite", "the transform is not finite");
+      fail_at(document, fmt::format("/nodes/{}", visit.node), "gltf.not-finite",
+              "the transform is not finite");
     }
     push(document.model.nodes[index].children, order.to_scene[index]);
   }
 }
 
-/// "hat" (node 3)
+/// 3, or "hat" (3)
 std::string shown_node(const GltfDocument& document, int node) {
   const std::string& name = document.model.nodes[static_cast<std::size_t>(node)].name;
-  return name.empty() ? fmt::format("{}", node) : fmt::format("\"{}\"", name);
+  return name.empty() ? fmt::format("{}", node) : fmt::format("{} ({})", shown(Json(name)), node);
 }
 
 std::string shown_nodes(const GltfDocument& document, const std::vector<int>& nodes) {
-  std::vector<std::string> names;
-  for (const int node : nodes) names.push_back(shown_node(document, node));
-  return name_list(names);
+  std::vector<std::string> shown;
+  for (const int node : nodes) {
+    if (shown.size() == kMostShown) {
+      shown.push_back(fmt::format("and {} more", nodes.size() - kMostShown));
+      break;
+    }
+    shown.push_back(shown_node(document, node));
+  }
+  return fmt::format("{}", fmt::join(shown, ", "));
 }
 
 bool has_mesh(const GltfDocument& document, int node) {
@@ -218,10 +219,6 @@ MeshNode choose_mesh_node(const GltfDocument& document, const MeshChoice& choice
   }
   const tinygltf::Node& node = document.model.nodes[static_cast<std::size_t>(nodes[0])];
   MeshNode at{nodes[0], node.mesh, order.to_scene[static_cast<std::size_t>(nodes[0])]};
-  if (static_cast<std::size_t>(at.mesh) >= document.model.meshes.size()) {
-    fail_at(document, fmt::format("/nodes/{}/mesh", at.node), "gltf.invalid",
-            fmt::format("mesh {} does not exist", at.mesh));
-  }
   if (node.skin >= 0) {
     at.to_scene = bound_to_scene(joint_transforms(document, node.skin, order.to_scene));
   }

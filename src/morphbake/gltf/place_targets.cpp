@@ -11,59 +11,74 @@ namespace {
 
 constexpr int kUnsignedByte = 5121;
 
-/// Normal displacements for targets that have none: three.js takes the base normals for them where
-/// only some targets have NORMAL.
-class NoNormals {
+/// Displacements that are zero.
+class StillDisplacements {
  public:
-  explicit NoNormals(GlbDraft& draft) : draft_(draft) {}
+  explicit StillDisplacements(GlbDraft& draft) : draft_(draft) {}
 
   /// Zeros of that many vertices. Clients disagree about accessors without any bytes, so one of the
   /// zeros is told.
-  int accessor_of(Eigen::Index vertices) {
-    const auto [entry, is_new] = accessors_.try_emplace(vertices, -1);
-    if (is_new) entry->second = append(vertices);
+  ///
+  /// @param type  "VEC2" to "VEC4"
+  int accessor_of(Eigen::Index vertices, const std::string& type) {
+    const auto [entry, is_new] = accessors_.try_emplace({vertices, type}, -1);
+    if (is_new) entry->second = append(vertices, type);
     return entry->second;
   }
 
  private:
-  int append(Eigen::Index vertices) {
+  int append(Eigen::Index vertices, const std::string& type) {
     if (index_ < 0) {
       constexpr unsigned char kFirst = 0;
-      constexpr float kZeros[3] = {0, 0, 0};
+      constexpr float kZeros[4] = {0, 0, 0, 0};
       index_ = append_view(draft_, &kFirst, sizeof kFirst, BufferUse::Other);
       zeros_ = append_view(draft_, kZeros, sizeof kZeros, BufferUse::Other);
     }
-    const Json zeros = {0.0, 0.0, 0.0};
     const Json sparse = {{"count", 1},
                          {"indices", {{"bufferView", index_}, {"componentType", kUnsignedByte}}},
                          {"values", {{"bufferView", zeros_}}}};
-    return append_accessor(draft_, {{"componentType", kFloatComponent},
-                                    {"count", vertices},
-                                    {"type", "VEC3"},
-                                    {"min", zeros},
-                                    {"max", zeros},
-                                    {"sparse", sparse}});
+    Json accessor = {{"componentType", kFloatComponent},
+                     {"count", vertices},
+                     {"type", type},
+                     {"sparse", sparse}};
+    if (type == "VEC3") accessor["min"] = accessor["max"] = {0.0, 0.0, 0.0};
+    return append_accessor(draft_, std::move(accessor));
   }
 
   GlbDraft& draft_;
-  std::map<Eigen::Index, int> accessors_;
+  std::map<std::pair<Eigen::Index, std::string>, int> accessors_;
   int index_ = -1, zeros_ = -1;  // bufferViews, one of each a file
 };
 
-void append_targets(GlbDraft& draft, NoNormals& no_normals, const PrimitiveMorph& morph,
-                    Json& primitive) {
-  const bool with_normals = !morph.target_normals.empty();
-  if (with_normals && primitive.contains("targets")) {
-    for (Json& target : primitive["targets"]) {
-      if (target.contains("NORMAL")) continue;
-      target["NORMAL"] = no_normals.accessor_of(morph.positions.rows());
+/// Gives a primitive's targets the same attributes: where a target lacks one that others have,
+/// three.js takes the vertices' own normals or colours for displacements.
+void complete_targets(StillDisplacements& still, const Json& accessors, Eigen::Index vertices,
+                      Json& targets) {
+  std::map<std::string, std::string> types;
+  for (const Json& target : targets) {
+    for (const auto& [name, accessor] : target.items()) {
+      types.try_emplace(name, accessors.at(accessor.get<std::size_t>()).at("type"));
     }
   }
+  for (Json& target : targets) {
+    for (const auto& [name, type] : types) {
+      if (!target.contains(name)) target[name] = still.accessor_of(vertices, type);
+    }
+  }
+}
+
+void append_targets(MorphWriting& writing, StillDisplacements& still, const PrimitiveMorph& morph,
+                    Json& primitive) {
   for (std::size_t t = 0; t < morph.target_positions.size(); ++t) {
-    Json target = {{"POSITION", append_vectors(draft, morph.target_positions[t])}};
-    if (with_normals) target["NORMAL"] = append_vectors(draft, morph.target_normals[t]);
+    Json target = {{"POSITION", append_vectors(writing.draft, morph.target_positions[t])}};
+    if (!morph.target_normals.empty()) {
+      target["NORMAL"] = append_vectors(writing.draft, morph.target_normals[t]);
+    }
     primitive["targets"].push_back(std::move(target));
   }
+  const auto targets = primitive.find("targets");
+  if (targets == primitive.end()) return;
+  complete_targets(still, writing.draft.accessors, morph.positions.rows(), *targets);
 }
 
 /// Importers look for names in extras.targetNames. Extras of another kind than an object, which are
@@ -71,8 +86,13 @@ void append_targets(GlbDraft& draft, NoNormals& no_normals, const PrimitiveMorph
 void name_targets(MorphWriting& writing) {
   Json& extras = mesh_of(writing)["extras"];
   if (!extras.is_null() && !extras.is_object()) extras = Json{{"extras", std::move(extras)}};
+  if (extras.contains("targetNames") && !extras["targetNames"].is_array()) {
+    Json other = std::move(extras["targetNames"]);  // whatever it means to its owner
+    extras["targetNames"] = Json::array();
+    extras["targetNames-2"] = std::move(other);
+  }
   Json& names = extras["targetNames"];
-  if (!names.is_array()) names = Json::array();
+  if (names.is_null()) names = Json::array();
   names.get_ref<Json::array_t&>().resize(std::min(names.size(), writing.own_targets));
   while (names.size() < writing.own_targets) names.push_back(std::to_string(names.size()));
   std::set<std::string> taken;
@@ -107,9 +127,9 @@ void extend_weights(MorphWriting& writing) {
 void place_targets(MorphWriting& writing) {
   const MeshMorph& morph = writing.morph;
   Json& primitives = mesh_of(writing)["primitives"];
-  NoNormals no_normals(writing.draft);
+  StillDisplacements still(writing.draft);
   for (std::size_t p = 0; p < morph.primitives.size(); ++p) {
-    append_targets(writing.draft, no_normals, morph.primitives[p], primitives[p]);
+    append_targets(writing, still, morph.primitives[p], primitives[p]);
   }
   name_targets(writing);
   extend_weights(writing);

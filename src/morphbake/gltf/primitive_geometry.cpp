@@ -97,6 +97,9 @@ PrimitiveGeometry read_primitive_geometry(const GltfDocument& document,
   geometry.positions =
       read_float3s(document, primitive.attributes.at("POSITION"), attributes + "/POSITION");
   const auto vertices = static_cast<std::size_t>(geometry.positions.rows());
+  for (const auto& [name, accessor] : primitive.attributes) {
+    check_count(document, accessor, vertices, attributes + "/" + name);
+  }
   geometry.normals = read_vectors(document, primitive.attributes, "NORMAL", vertices, attributes);
   geometry.triangles = read_triangles(document, primitive, vertices, pointer);
   return geometry;

@@ -19,6 +19,7 @@ constexpr std::size_t kFewestElements = std::size_t{1} << 22;
 constexpr std::size_t kFewestRows = std::size_t{1} << 24;
 constexpr std::size_t kRowsOfJoints = 6;  // four joints and weights, as they are read and as kept
 
+constexpr std::size_t kMostText = std::size_t{1} << 26;  // each is held up to eight times over
 constexpr std::size_t kMostListBytes = std::size_t{1} << 28;
 constexpr std::size_t kSpareBytes = std::size_t{1} << 26;
 
@@ -63,6 +64,26 @@ std::size_t length_within(const Json& json, const char* outer, const char* inner
   return length;
 }
 
+/// Bytes of all names and strings; nesting was bounded when the JSON was read.
+std::size_t text_bytes(const Json& json) {
+  if (json.is_string()) return json.get_ref<const std::string&>().size();
+  std::size_t bytes = 0;
+  if (json.is_object()) {
+    for (const auto& [name, value] : json.items()) bytes += name.size() + text_bytes(value);
+  } else if (json.is_array()) {
+    for (const Json& value : json) bytes += text_bytes(value);
+  }
+  return bytes;
+}
+
+std::size_t uri_bytes(const Json& json, const char* list) {
+  std::size_t bytes = 0;
+  for (const Json& item : list_of(json, list)) {
+    if (item.is_object() && item.contains("uri")) bytes += text_bytes(item["uri"]);
+  }
+  return bytes;
+}
+
 MeshSize mesh_size(const GltfDocument& document, const tinygltf::Primitive& primitive) {
   MeshSize size;
   const auto count = [&](const Attributes& attributes, const std::string& name) {
@@ -82,6 +103,16 @@ MeshSize mesh_size(const GltfDocument& document, const tinygltf::Primitive& prim
 }
 
 }  // namespace
+
+void check_text_size(const GltfDocument& document) {
+  const Json& json = document.json;
+  const std::size_t bytes =
+      text_bytes(json) - uri_bytes(json, "buffers") - uri_bytes(json, "images");
+  if (bytes <= kMostText) return;
+  fail_at(document, "", "gltf.too-large",
+          fmt::format("the JSON has {} bytes of names and strings, more than {}", bytes, kMostText),
+          "put data into a buffer, or beside the file");
+}
 
 void check_list_sizes(const GltfDocument& document) {
   const Json& json = document.json;

@@ -15,6 +15,14 @@ constexpr std::size_t kMostZeros = std::size_t{1} << 23;
 /// Values in the JSON of a file: a tree of them takes some hundred bytes each.
 constexpr std::size_t kMostJsonValues = std::size_t{1} << 21;
 
+/// Bytes of a file's JSON, with the data in it: text takes some times its size while it is parsed.
+constexpr std::size_t kMostJsonBytes = std::size_t{1} << 28;
+
+/// Checks the JSON's names and strings, but for the URIs of buffers and images: 64 MiB in all.
+///
+/// @throws BakeError "gltf.too-large"
+void check_text_size(const GltfDocument& document);
+
 /// Checks how many things a file has: each takes some hundred bytes once it is read.
 ///
 /// @throws BakeError "gltf.too-large"

@@ -44,11 +44,7 @@ BindingSet read_set(const GltfDocument& document, const tinygltf::Primitive& pri
 std::vector<Eigen::Matrix4d> joint_transforms(const GltfDocument& document, int index,
                                               const std::vector<Eigen::Matrix4d>& to_scene) {
   const std::string pointer = fmt::format("/skins/{}", index);
-  const auto& skins = document.model.skins;
-  if (static_cast<std::size_t>(index) >= skins.size()) {
-    fail_at(document, pointer, "gltf.invalid", fmt::format("skin {} does not exist", index));
-  }
-  const tinygltf::Skin& skin = skins[static_cast<std::size_t>(index)];
+  const tinygltf::Skin& skin = document.model.skins[static_cast<std::size_t>(index)];
   if (skin.joints.empty()) {
     fail_at(document, pointer + "/joints", "gltf.invalid", "the skin has no joint");
   }
@@ -63,12 +59,7 @@ std::vector<Eigen::Matrix4d> joint_transforms(const GltfDocument& document, int 
   }
   std::vector<Eigen::Matrix4d> transforms;
   for (std::size_t j = 0; j < skin.joints.size(); ++j) {
-    const int joint = skin.joints[j];
-    if (joint < 0 || static_cast<std::size_t>(joint) >= to_scene.size()) {
-      fail_at(document, fmt::format("{}/joints/{}", pointer, j), "gltf.invalid",
-              fmt::format("node {} does not exist", joint));
-    }
-    transforms.push_back(to_scene[static_cast<std::size_t>(joint)]);
+    transforms.push_back(to_scene[static_cast<std::size_t>(skin.joints[j])]);
     if (inverse.empty()) continue;
     transforms.back() *= Eigen::Map<const Eigen::Matrix4f>(inverse.data() + 16 * j).cast<double>();
   }

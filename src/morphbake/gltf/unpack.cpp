@@ -245,16 +245,17 @@ void erase_name(Json& json, const char* list, const char* name) {
   if (found->empty()) json.erase(list);
 }
 
-/// Buffers stand for nothing but compressed data any more.
-void erase_marks(Json& json) {
+/// The JSON of a file whose buffers stand for no compressed data any more.
+Json without_marks(Json json) {
   for (const char* list : {"extensionsUsed", "extensionsRequired"}) {
     for (const char* name : {kMeshopt, kDraco}) erase_name(json, list, name);
   }
   const auto buffers = json.find("buffers");
-  if (buffers == json.end()) return;
+  if (buffers == json.end()) return json;
   for (Json& buffer : *buffers) {
     if (extension_of(buffer, kMeshopt) != nullptr) erase_extension(buffer, kMeshopt);
   }
+  return json;
 }
 
 }  // namespace
@@ -275,15 +276,17 @@ std::string unpacked_glb(const GltfDocument& document,
                          const std::vector<std::string_view>& buffers) {
   std::size_t bytes = 0;
   for (const std::string_view buffer : buffers) bytes += buffer.size();
-  Unpacking at{
-      document, buffers, join_buffers(document.json, buffers), UnpackBudget::of_file(bytes), {}};
+  Unpacking at{document,
+               buffers,
+               join_buffers(without_marks(document.json), buffers),
+               UnpackBudget::of_file(bytes),
+               {}};
   at.references = references_in(at.draft);
   unpack_views(at);
   std::set<std::size_t> reused;
   for_each_primitive(at.draft.json, [&](Json& primitive, const std::string& pointer) {
     unpack_primitive(at, primitive, pointer, reused);
   });
-  erase_marks(at.draft.json);
   remove_leftovers(at.draft);
   at.draft.shown = document.file;
   return glb_bytes(at.draft);

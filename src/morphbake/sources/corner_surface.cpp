@@ -19,6 +19,7 @@ namespace morphbake {
 namespace {
 
 constexpr int kPlaces = 3;  // how many places a message names
+constexpr int kMostAround = 4096;
 
 std::string place_of(const Positions& positions, int vertex) {
   return fmt::format("({:.4g}, {:.4g}, {:.4g})", positions(vertex, 0), positions(vertex, 1),
@@ -241,6 +242,19 @@ void check_manifold(const SourceMesh& source, const Connectivity& connectivity,
           ? "the surface has no outside there, as a strip that is twisted once; cut it at the twist"
           : "in Blender: Mesh > Clean Up > Merge by Distance, then Select > All by Trait > "
             "Non Manifold shows the places");
+}
+
+void check_hubs(const SourceMesh& source, const Connectivity& connectivity,
+                const Positions& positions) {
+  std::vector<int> around(static_cast<std::size_t>(connectivity.vertex_count), 0);
+  for (const int v : connectivity.triangles.reshaped()) ++around[static_cast<std::size_t>(v)];
+  const auto hub = std::ranges::max_element(around);
+  if (hub == around.end() || *hub <= kMostAround) return;
+  fail_source(
+      source, "connectivity.hub",
+      fmt::format("{} triangles meet at {}; new triangles can be laid over {} at most", *hub,
+                  place_of(positions, static_cast<int>(hub - around.begin())), kMostAround),
+      "give the fan rings of vertices, or remesh it in a modeller first");
 }
 
 }  // namespace morphbake

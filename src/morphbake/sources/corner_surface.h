@@ -70,6 +70,13 @@ std::vector<Problem> surface_warnings(const SourceMesh& first,
 void check_manifold(const SourceMesh& source, const Connectivity& connectivity,
                     const Positions& positions);
 
+/// Checks what new triangles can be laid over: CGAL and our own walks look around a vertex for each
+/// of its triangles.
+///
+/// @throws BakeError "connectivity.hub" when more than 4096 triangles meet at a vertex
+void check_hubs(const SourceMesh& source, const Connectivity& connectivity,
+                const Positions& positions);
+
 /// @throws BakeError with a problem of the source's mesh
 [[noreturn]] void fail_source(const SourceMesh& source, const std::string& code,
                               const std::string& message, const std::string& hint);

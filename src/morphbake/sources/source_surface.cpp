@@ -36,7 +36,8 @@ SourceSurface source_surface(const SourceMesh& source, const SourceRef& ref,
   for (const Landmark& landmark : ref.landmarks) surface.landmark_names.push_back(landmark.name);
   const Mesh mesh{vertex_positions(source, corners), corners.connectivity.triangles};
   const bool is_manifold =
-      passes([&] { check_manifold(source, corners.connectivity, mesh.positions); }, problems);
+      passes([&] { check_manifold(source, corners.connectivity, mesh.positions); }, problems) &&
+      passes([&] { check_hubs(source, corners.connectivity, mesh.positions); }, problems);
   stop_if_cancelled(observer);
   if (mesh.triangles.rows() > 0) {
     passes([&] { surface.landmarks = landmark_points(source, corners, mesh, ref, observer); },

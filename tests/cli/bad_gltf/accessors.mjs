@@ -1,7 +1,7 @@
 // Buffers, bufferViews, accessors and the numbers in them.
 import { FLOAT, UBYTE, UINT, USHORT, addAccessor, addView, all, set, withBytes } from './good.mjs';
 
-const OUT_OF_RANGE = '[gltf.out-of-range]', ACCESSOR = '[gltf.accessor]';
+const OUT_OF_RANGE = '[gltf.out-of-range]', ACCESSOR = '[gltf.accessor]', INVALID = '[gltf.invalid]';
 const P = '#/meshes/0/primitives/0', POSITION = `${P}/attributes/POSITION`;
 
 const buffers = {
@@ -52,11 +52,14 @@ const accessors = {
   'doubles': [set('accessors.0.componentType', 5130), '#/accessors/0/componentType', '[gltf.wrong-type]'],
   'unknown element type': [set('accessors.0.type', 'VEC9'), '#/accessors/0/type', '[gltf.bad-value]'],
   'accessor without a type': [set('accessors.0.type', undefined), '#/accessors/0', '[gltf.missing-field]'],
-  'missing accessor': [set('meshes.0.primitives.0.attributes.POSITION', 77), POSITION, ACCESSOR],
+  'fewer texture coordinates than positions': [(g) => {
+    g.meshes[0].primitives[0].attributes.TEXCOORD_0 = addAccessor(g, new Float32Array(4), 'VEC2', FLOAT);
+  }, '#/meshes/0/primitives/0/attributes/TEXCOORD_0', ACCESSOR],
+  'missing accessor': [set('meshes.0.primitives.0.attributes.POSITION', 77), POSITION, INVALID],
   'accessor -1': [set('meshes.0.primitives.0.attributes.POSITION', -1), POSITION, OUT_OF_RANGE],
-  'accessor of four billion': [set('meshes.0.primitives.0.attributes.POSITION', 4294967295), POSITION, ACCESSOR],
+  'accessor of four billion': [set('meshes.0.primitives.0.attributes.POSITION', 4294967295), POSITION, INVALID],
   'accessor of a half': [set('meshes.0.primitives.0.attributes.POSITION', 0.5), POSITION, '[gltf.wrong-type]'],
-  'missing view': [set('accessors.0.bufferView', 9), '/accessors/0', ACCESSOR],
+  'missing view': [set('accessors.0.bufferView', 9), '/accessors/0', INVALID],
   'view -1': [set('accessors.0.bufferView', -1), '#/accessors/0/bufferView', OUT_OF_RANGE],
   'text for a minimum': [set('accessors.0.min', 'x'), '#/accessors/0/min', '[gltf.wrong-type]'],
   'two billion zeros': [(g) => { g.accessors[0] = { componentType: FLOAT, count: 2 ** 31, type: 'VEC3' }; }, '[gltf.too-large]'],
@@ -96,7 +99,7 @@ const sparseCases = {
   'sparse indices of floats': [sparse((s) => { s.indices.componentType = FLOAT; }), S, '[gltf.wrong-type]'],
   'sparse indices without a view': [sparse((s) => { delete s.indices.bufferView; }), S, '[gltf.missing-field]'],
   'sparse without values': [sparse((s) => { delete s.values; }), S, '[gltf.missing-field]'],
-  'sparse of a missing view': [sparse((s) => { s.values.bufferView = 99; }), S, ACCESSOR],
+  'sparse of a missing view': [sparse((s) => { s.values.bufferView = 99; }), '#/accessors/0/sparse/values/bufferView', INVALID],
   'text for sparse': [set('accessors.0.sparse', 'x'), S, '[gltf.wrong-type]'],
   'sparse over two billion zeros': [sparse((s, g) => { delete g.accessors[0].bufferView; g.accessors[0].count = 2 ** 31; }), '[gltf.too-large]'],
   'sparse value not a number': [(g) => {
@@ -108,8 +111,8 @@ const sparseCases = {
 const indices = {
   'index out of range': [withBytes((_, i) => { i[5] = 999; }), `${P}/indices`, '999', ACCESSOR],
   'index that restarts': [withBytes((_, i) => { i[5] = 65535; }), `${P}/indices`, ACCESSOR],
-  'missing index accessor': [set('meshes.0.primitives.0.indices', 50), `${P}/indices`, ACCESSOR],
-  'index accessor of four billion': [set('meshes.0.primitives.0.indices', 4294967295), `${P}/indices`, ACCESSOR],
+  'missing index accessor': [set('meshes.0.primitives.0.indices', 50), `${P}/indices`, INVALID],
+  'index accessor of four billion': [set('meshes.0.primitives.0.indices', 4294967295), `${P}/indices`, INVALID],
   'indices of floats': [set('accessors.2.componentType', FLOAT), 'gltf.'],
   'indices of vectors': [all(set('accessors.2.type', 'VEC3'), set('accessors.2.count', 8)), `${P}/indices`, ACCESSOR],
   'indices of signed bytes': [set('accessors.2.componentType', 5120), `${P}/indices`, ACCESSOR],

@@ -43,6 +43,8 @@ const samplers = (count, keys, ownOutputs = false) => (gltf) => {
 };
 
 export const baked = {
+  '70 MB of text': [(g) => { g.nodes[0].name = 'data:'.repeat(1.4e7); }, LARGE],
+  '270 MB of JSON': [(g) => Buffer.concat([Buffer.from(JSON.stringify(g)), Buffer.alloc(2.7e8, ' ')]), LARGE],
   '10,000 primitives': [primitives(10000), '[connectivity.different-triangles]'],
   'one megabyte of positions, 10,000 primitives': [withZeros(BIG, (g) => {
     g.accessors.push(vectors(87381));
@@ -124,6 +126,7 @@ export const legal = {
   'a 64 MB binary chunk': [withZeros(64e6, () => {})],
   '64 MB of spaces in the JSON': [(g) => Buffer.concat([Buffer.from(`${JSON.stringify(g).slice(0, -1)}`), Buffer.alloc(64e6, ' '), Buffer.from('}')])],
   'a name of 10 MB': [(g) => { g.nodes[0].name = 'n'.repeat(1e7); }],
+  '60 MB of text': [(g) => { g.extras = 't'.repeat(6e7); }],
   'a data URI of 30 MB': [(g) => {
     g.accessors.push(vectors(87381));
     addAccessor(g, new Float32Array(22.5e6 / 4), 'SCALAR', FLOAT);

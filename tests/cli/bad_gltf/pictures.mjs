@@ -88,6 +88,10 @@ export const previewed = {
   'image beyond its buffer': [textured(good, (g) => { g.bufferViews[g.images[0].bufferView].byteLength = 1e6; }), 'gltf.'],
   'image at 4 GB': [textured(good, (g) => { g.bufferViews[g.images[0].bufferView].byteOffset = 4294967292; }), 'gltf.'],
   'image without bytes': [textured(good, set('images', [{}])), '[gltf.invalid]'],
+  'texture of a missing image': [textured(good, set('textures.0.source', 44)), '#/textures/0/source', '[gltf.invalid]'],
+  'material of a missing texture': [textured(good, set('materials.0.pbrMetallicRoughness.baseColorTexture.index', 44)),
+    '#/materials/0/pbrMetallicRoughness/baseColorTexture/index', '[gltf.invalid]'],
+  'material that is not there': [textured(good, set('meshes.0.primitives.0.material', 44)), '#/meshes/0/primitives/0/material', '[gltf.invalid]'],
   'image of bad base64': [textured(good, set('images', [{ uri: 'data:image/png;base64,????' }])), '[gltf.invalid]'],
   'missing image file': [textured(good, set('images', [{ uri: 'gone.png' }])), `${I}/uri`, '[gltf.missing-file]'],
   'fewer texture coordinates': [textured(good, (g) => {
@@ -100,7 +104,4 @@ export const previewed = {
 
 export const legal = {
   'good texture': [textured(good)],
-  'texture of a missing image': [textured(good, set('textures.0.source', 44))],
-  'material of a missing texture': [textured(good, set('materials.0.pbrMetallicRoughness.baseColorTexture.index', 44))],
-  'missing material': [textured(good, set('meshes.0.primitives.0.material', 44))],
 };

@@ -50,6 +50,24 @@ const primitives = {
   }, '[gltf.mixed-normals]'],
 };
 
+/** What refers to a thing that is not there, though the shape needs none of it. */
+const dangling = {
+  'missing material': [set('meshes.0.primitives.0.material', 1), `${P}/material`, INVALID, 'the file has 0'],
+  'missing texture': [set('materials', [{ pbrMetallicRoughness: { baseColorTexture: { index: 2 } } }]),
+    '#/materials/0/pbrMetallicRoughness/baseColorTexture/index', INVALID],
+  'missing image': [set('textures', [{ source: 0 }]), '#/textures/0/source', INVALID],
+  'missing texture sampler': [set('textures', [{ sampler: 7 }]), '#/textures/0/sampler', INVALID],
+  'texture -1': [set('materials', [{ emissiveTexture: { index: -1 } }]), '#/materials/0/emissiveTexture/index', 'gltf.'],
+  'missing sampler of a node that is not morphed': [(g) => {
+    g.nodes.push({});
+    g.animations = [{ samplers: [], channels: [{ sampler: 0, target: { node: 1, path: 'scale' } }] }];
+  }, '#/animations/0/channels/0/sampler', INVALID],
+  'missing camera': [set('nodes.0.camera', 0), '#/nodes/0/camera', INVALID],
+  'missing colours of a target': [set('meshes.0.primitives.0.targets', [{ POSITION: 0, COLOR_0: 44 }]), `${P}/targets/0/COLOR_0`, INVALID],
+  'another mesh without its points': [(g) => g.meshes.push({ primitives: [{ attributes: { POSITION: 99 } }] }),
+    '#/meshes/1/primitives/0/attributes/POSITION', INVALID],
+};
+
 /** A target whose displacements are `values`. */
 const target = (values) => (gltf) => {
   gltf.meshes[0].primitives[0].targets = [{ POSITION: addAccessor(gltf, values, 'VEC3', FLOAT) }];
@@ -59,7 +77,7 @@ const targetCases = {
   'target of fewer vertices': [target(new Float32Array(9)), `${P}/targets/0/POSITION`, '[gltf.accessor]'],
   'target of more vertices': [target(new Float32Array(60)), `${P}/targets/0/POSITION`, '[gltf.accessor]'],
   'target not a number': [target(new Float32Array(18).fill(NaN)), `${P}/targets/0/POSITION`, '[gltf.not-finite]'],
-  'target of a missing accessor': [set('meshes.0.primitives.0.targets', [{ POSITION: 40 }]), `${P}/targets/0/POSITION`, '[gltf.accessor]'],
+  'target of a missing accessor': [set('meshes.0.primitives.0.targets', [{ POSITION: 40 }]), `${P}/targets/0/POSITION`, INVALID],
   'target of bytes': [(g) => {
     g.meshes[0].primitives[0].targets = [{ POSITION: addAccessor(g, new Uint8Array(24), 'VEC4', UBYTE) }];
   }, `${P}/targets/0/POSITION`, 'gltf.'],
@@ -86,7 +104,7 @@ const skin = (change) => (gltf) => {
 };
 
 const skinCases = {
-  'missing skin': [skin((g) => { g.nodes[0].skin = 4; }), '#/skins/4', INVALID],
+  'missing skin': [skin((g) => { g.nodes[0].skin = 4; }), '#/nodes/0/skin', INVALID],
   'skin without joints': [skin((g, s) => { delete s.joints; }), '#/skins/0', 'gltf.'],
   'skin of no joints': [skin((g, s) => { s.joints = []; }), '#/skins/0', 'gltf.'],
   'skin of a missing joint': [skin((g, s) => { s.joints = [17]; }), '#/skins/0/joints/0', INVALID],
@@ -94,7 +112,7 @@ const skinCases = {
   'skin of joint -1': [skin((g, s) => { s.joints = [-1]; }), '#/skins/0/joints/0', '[gltf.out-of-range]'],
   'skin with fewer bind matrices': [skin((g, s) => { s.joints = [1, 0]; }), '#/skins/0/inverseBindMatrices', '[gltf.accessor]'],
   'bind matrices of vectors': [skin((g, s) => { s.inverseBindMatrices = 0; }), '#/skins/0/inverseBindMatrices', '[gltf.accessor]'],
-  'missing bind matrices': [skin((g, s) => { s.inverseBindMatrices = 99; }), '#/skins/0/inverseBindMatrices', '[gltf.accessor]'],
+  'missing bind matrices': [skin((g, s) => { s.inverseBindMatrices = 99; }), '#/skins/0/inverseBindMatrices', INVALID],
   'bind matrix not a number': [skin((g, s) => {
     s.inverseBindMatrices = addAccessor(g, new Float32Array(16).fill(NaN), 'MAT4', FLOAT);
   }), '#/skins/0/inverseBindMatrices', '[gltf.not-finite]'],
@@ -136,7 +154,7 @@ const animations = {
   'text for a channel\'s sampler': [animated((g) => { g.animations[0].channels[0].sampler = 'x'; }), '#/animations/0', 'gltf.'],
   'text for a channel\'s node': [animated((g) => { g.animations[0].channels[0].target.node = 'x'; }), '#/animations/0', 'gltf.'],
   'sampler of four billion': [animated((g) => { g.animations[0].channels[0].sampler = 4294967295; }), '#/animations/0', 'gltf.'],
-  'missing sampler': [animated((g) => { g.animations[0].channels[0].sampler = 8; }), '#/animations/0', INVALID],
+  'missing sampler': [animated((g) => { g.animations[0].channels[0].sampler = 8; }), '#/animations/0/channels/0/sampler', INVALID],
   'sampler -1': [animated((g) => { g.animations[0].channels[0].sampler = -1; }), '#/animations/0', 'gltf.'],
   'text for a key': [animated((g, s) => { s.input = 'x'; }), '#/animations/0', 'gltf.'],
   'sampler without an output': [animated((g, s) => { delete s.output; }), '#/animations/0', 'gltf.'],
@@ -144,7 +162,7 @@ const animations = {
   'key time not a number, baked': [animated(same, [0, NaN]), `${A}/input`, '[gltf.not-finite]'],
 };
 
-export const baked = { ...nodes, ...primitives, ...targetCases, ...animations };
+export const baked = { ...nodes, ...primitives, ...dangling, ...targetCases, ...animations };
 
 const MOMENT = { animation: { time: 0.5 } };
 const chooses = (choice, ...texts) => [choice, animated(same), ...texts];
@@ -177,7 +195,7 @@ export const previewed = {
   'weight of a key not a number': [animated(same, [0, 1], [0, NaN]), `${A}/output`, '[gltf.not-finite]'],
   'more weights than keys': [animated(same, [0, 1], [0, 1, 0]), `${A}/output`, '[gltf.accessor]'],
   'fewer weights than keys': [animated(same, [0, 1], [0]), `${A}/output`, '[gltf.accessor]'],
-  'keys of a missing accessor': [animated((g, s) => { s.input = 55; }), `${A}/input`, '[gltf.accessor]'],
+  'keys of a missing accessor': [animated((g, s) => { s.input = 55; }), `${A}/input`, INVALID],
   'keys of vectors': [animated((g, s) => { s.input = 0; }), `${A}/input`, '[gltf.accessor]'],
   'unknown interpolation': [animated((g, s) => { s.interpolation = 'MAGIC'; }), `${A}/interpolation`, 'gltf.'],
   'fewer colours': [(g) => {

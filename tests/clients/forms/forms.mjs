@@ -322,6 +322,18 @@ const CUBIC_WEIGHTS = [0, 0, 0, 0, 0.5, 0, 0, 0.1, 1, 0, 0, 0.2, 0, 0, 0.25, 0.5
 const restingTargets = oneMesh((document, which) => putTargets(document, ringPrimitive(document, which), which), {},
   { weights: [0.5, 0.25], ...TARGET_NAMES });
 
+/** A target that moves colours and texture coordinates too. */
+async function colouredTarget(which) {
+  const document = await textured(which);
+  const [{ primitives: [primitive] }] = document.json.meshes;
+  const { points } = ring(which);
+  putTargets(document, primitive, which);
+  Object.assign(primitive.targets[1], {
+    COLOR_0: gltf.putAccessor(document, points.map(() => [-0.25, 0.125, 0, 0]), gltf.FLOAT),
+    TEXCOORD_0: gltf.putAccessor(document, points.map(() => [0.5, 0]), gltf.FLOAT) });
+  return document;
+}
+
 /** Weights as bytes, for two nodes of one mesh by one sampler. */
 async function instancedTargets(which) {
   const document = gltf.startDocument([{ ...SUBJECT }, { name: 'twin', mesh: 0, translation: [4, 0, 0], weights: [0, 1] }]);
@@ -563,6 +575,16 @@ const strangers = (kinds, place) => async (which) => {
 
 const percentEncoded = (bytes, type) => `data:${type},${[...bytes].map((b) => `%${b.toString(16).padStart(2, '0')}`).join('')}`;
 
+/** Indices and counts as some exporters write them: 1.0 for 1, but for numbers of extras. */
+async function floatingIntegers(which) {
+  const { main, files } = await external(which);
+  const text = files[main].toString();
+  const parts = text.match(/"(?:\\.|[^"\\])*"|[^"]+/g);
+  const pointed = parts.map((part) => (part.startsWith('"') ? part : part.replace(/(?<![\d.eE+-])\d+(?![\d.eE])/g, '$&.0')));
+  files[main] = Buffer.from(pointed.join(''));
+  return { main, files };
+}
+
 const picturesBeside = strangers(STRANGERS, (files, bytes, type, name) => { files[name] = bytes; return name; });
 const picturesInUris = strangers(STRANGERS.slice(0, 1), (files, bytes, type) =>
   (type === 'image/png' ? percentEncoded : gltf.dataUri)(bytes, type));
@@ -613,6 +635,7 @@ export const FORMS = {
   'data-uris': { make: dataUris },
   'external': { make: external },
   'beside-glb': { make: besideGlb },
+  'floating-integers': { make: floatingIntegers },
   'pictures-beside': { make: picturesBeside },
   'pictures-in-uris': { make: picturesInUris },
   'textured': { make: single(textured) },
@@ -634,6 +657,7 @@ export const FORMS = {
   'targets-linear': { make: single(animatedTargets('LINEAR', LINEAR_WEIGHTS)) },
   'targets-step': { make: single(animatedTargets('STEP', LINEAR_WEIGHTS)) },
   'targets-cubic': { make: single(animatedTargets('CUBICSPLINE', CUBIC_WEIGHTS, { weights: [0, 0] })) },
+  'targets-colours': { make: single(colouredTarget) },
   'targets-instanced': { make: single(instancedTargets), select: { node: 'subject' } },
   'targets-shared-sampler': { make: single(sharedSampler), select: { node: 'subject' } },
   'targets-shared-output': { make: single(sharedOutput) },
@@ -648,6 +672,8 @@ export const FORMS = {
   'from-animation': { make: single(animatedTargets('CUBICSPLINE', CUBIC_WEIGHTS)),
     a: { animation: { time: 0.2 } }, b: { animation: { name: 'breath', time: 1.3 } },
     moments: { a: { animation: 0, time: 0.2 }, b: { animation: 0, time: 1.3 } } },
+  'from-pointer': { make: single(pointedWeights), a: { animation: { name: 'breath', time: 0.25 } },
+    b: { animation: { name: 'breath', time: 2 } }, moments: { a: { weights: [0.5, 0] }, b: { weights: [0.25, 0.5] } } },
   'to-pose': { make: mixed(single(plainRing()), single(skin)), b: { animation: { name: 0, time: 0.6 } },
     moments: { a: REST, b: { animation: 0, time: 0.6 } } },
   'from-pose': { make: single(displaced(false)), ...NODS, tells: ['info: NODE_EMPTY'] },  // a leaf that is no joint any more

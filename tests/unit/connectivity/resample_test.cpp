@@ -42,6 +42,12 @@ TEST(Resample, RefusesMoreVerticesThanAllowedBeforeItMakesThem) {
   EXPECT_EQ(code_of(surfaces_of(test::sphere(8, 10)), options), "connectivity.too-many-vertices");
 }
 
+TEST(Resample, RefusesNeedlesThatMillionsOfSplitsWouldCut) {
+  std::vector<SourceSurface> surfaces = surfaces_of(test::grid(100000, 2));
+  for (SourceSurface& surface : surfaces) surface.mesh.positions.col(0) /= 100000;
+  EXPECT_EQ(code_of(surfaces, {}), "connectivity.too-thin");
+}
+
 TEST(Resample, KeepsLandmarksBordersAndHardEdges) {
   std::vector<SourceSurface> surfaces = surfaces_of(test::grid(9, 9));
   for (SourceSurface& surface : surfaces) {

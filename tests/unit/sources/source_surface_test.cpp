@@ -56,6 +56,14 @@ TEST(SourceSurface, RefusesWhatIsNoManifold) {
   EXPECT_THROW(source_surface(source_of(mesh, "a"), {}, {}), BakeError);
 }
 
+TEST(SourceSurface, RefusesHubsOfThousandsOfTriangles) {
+  std::vector<Problem> problems;
+  source_surface(source_of(test::sphere(2, 5000), "a"), {}, {}, problems);
+  ASSERT_EQ(problems.size(), 1U);
+  EXPECT_EQ(problems[0].code, "connectivity.hub");
+  EXPECT_NE(problems[0].message.find("5000 triangles"), std::string::npos) << problems[0].message;
+}
+
 TEST(SourceSurface, TellsOfLandmarksOfASurfaceThatIsNoManifold) {
   Mesh mesh = test::grid(3, 3);
   mesh.triangles.conservativeResize(9, 3);
