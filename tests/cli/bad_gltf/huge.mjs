@@ -130,6 +130,10 @@ export const legal = {
   '20,000 samplers of weights': [samplers(20000, 2)],
   '1,000 samplers of one long curve': [samplers(1000, 200000)],
   '5,000 targets without normals': [(g) => { g.meshes[0].primitives[0].targets = new Array(5000).fill({ POSITION: 0 }); }],
+};
+
+/** Large, and read. */
+export const read = {
   'a 64 MB binary chunk': [withZeros(64e6, () => {})],
   'a target of 100,000 attributes': [(g) => {
     const names = Array.from({ length: 1e5 }, (_, i) => [`_A${i}`, 0]);
