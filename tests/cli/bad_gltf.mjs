@@ -88,12 +88,13 @@ const words = {
 };
 
 /** Problems of one case: [] when all is as it must be. */
-async function check(name, command, [change, ...texts], { choice, mayBeRead = false, inspected = false, isWarning = false }) {
+async function check(name, command, [change, ...texts], { choice, mayBeRead = false, mustBeRead = false, inspected = false, isWarning = false }) {
   const folder = makeFolder(name, change, choice);
   const before = filesBelow(folder).length;
   const done = await run(name, folder, words[command](folder));
   const problems = [...done.problems];
-  if (done.status === 0 && mayBeRead) return problems;
+  if (mustBeRead && done.status !== 0) return [...problems, 'it was refused', done.stderr.slice(0, 2000)];
+  if (done.status === 0 && (mayBeRead || mustBeRead)) return problems;
   // Of two sources that differ the second is named, and a picture shows where.
   const differs = texts.some((text) => text.includes('connectivity.'));
   const names = differs ? 'good.gltf' : 'bad.gltf';
@@ -123,6 +124,7 @@ const all = [
   ...cases([pictures], 'warned', 'preview', { isWarning: true }),
   ...cases([accessors, packed, huge], 'legal', 'bake', { mayBeRead: true }),
   ...cases([pictures], 'legal', 'preview', { mayBeRead: true }),
+  ...cases([huge], 'read', 'bake', { mustBeRead: true }),
 ].filter(({ name }) => name.includes(part));
 
 let passed = 0, failed = 0;

@@ -30,6 +30,7 @@ const REFUSED = {
   'SchemaFailures/sceneWrongType.gltf': ['gltf.wrong-type', '#/scene', '"hello"'],
   'TestNoRootNode/NoScene.gltf': ['gltf.invalid'],
   'TestNoRootNode/SceneWithoutNodes.gltf': ['gltf.no-mesh'],
+  'wrongTypes/badUint.gltf': ['gltf.invalid', '#/materials/0/pbrMetallicRoughness/baseColorTexture/index'],
   'wrongTypes/badArray.gltf': ['gltf.wrong-type', '#/meshes/0/primitives'],
 };
 

@@ -13,8 +13,10 @@ import { findGlbs, readArguments, startChecks } from './support.mjs';
 
 const TOLERANCE = 1e-5;  // fraction of the diagonal
 // Legal things that a client leaves out, and says so, and what the driver says of reading pixels.
-const TOLD = new RegExp(['^THREE.GLTFLoader: Ignoring primitive type .extras', 'GL Driver Message',
-  'KHR_animation_pointer/pointer: Invalid pointer \\(/meshes/\\d+/weights\\) skipped$'].join('|'));
+const TOLD = /^THREE.GLTFLoader: Ignoring primitive type .extras|GL Driver Message/;
+// Babylon.js has no pointers to the weights of meshes, which two forms have for that.
+const POINTED = /KHR_animation_pointer\/pointer: Invalid pointer \(\/meshes\/0\/weights\) skipped$/;
+const isTold = (file, complaint) => TOLD.test(complaint) || (/-pointer\.glb$/.test(file) && POINTED.test(complaint));
 const { files: names } = readArguments();
 const checks = startChecks();
 
@@ -45,7 +47,7 @@ const nameOf = ({ node, mesh, primitive }) => `node ${node}, mesh ${mesh}, primi
 
 function compare(file, expected, found) {
   const check = (holds, message) => checks.check(holds, `${file}: ${message}`);
-  for (const complaint of found.complaints) if (!TOLD.test(complaint)) check(false, `complains: ${complaint}`);
+  for (const complaint of found.complaints) if (!isTold(file, complaint)) check(false, `complains: ${complaint}`);
   check(found.clips === expected.clips, `${found.clips} clips, expected ${expected.clips}`);
   check(found.places.length === expected.places.length, `${found.places.length} primitives shown, expected ${expected.places.length}`);
   let far = 0;

@@ -40,8 +40,8 @@ constexpr int kAttempts = 20;        // at finer and finer edges
 constexpr double kFiner = 0.75;      // of the next attempt's edges
 constexpr double kFull = 0.97;       // of max_vertices: what the finest attempt aims at
 constexpr double kSameEdges = 0.99;  // of the last attempt's: not worth another
-constexpr double kSpareSplits = 1e6;
-constexpr double kSplitsPerVertex = 8;  // of max_vertices
+constexpr double kSpareSplits = 1e5;
+constexpr double kSplitsPerVertex = 4;  // of max_vertices
 constexpr double kFlat = 1e-6;          // height over longest side: below, all is rounding to float
 constexpr int kNoLandmark = -1;
 

@@ -27,7 +27,7 @@ std::optional<PointedProperty> pointed_property(const Json& target);
 /// weights of nodes; weights of a mesh for each node that shows it and has no weights of its own.
 ///
 /// @param document  with its JSON and model
-/// @throws BakeError "gltf.too-large" for millions of nodes that such channels move
+/// @throws BakeError "gltf.too-large" when such channels move more than 131072 nodes in all
 void follow_pointers(GltfDocument& document);
 
 }  // namespace morphbake

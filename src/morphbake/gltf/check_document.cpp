@@ -116,7 +116,7 @@ void check_images(const GltfDocument& document) {
 void check_views(const GltfDocument& document) {
   const Json& json = document.json;
   const auto views = json.find("bufferViews");
-  if (views == json.end()) return;
+  if (views == json.end() || views->empty()) return;
   const Json& buffers = json.at("buffers");
   for (std::size_t v = 0; v < views->size(); ++v) {
     const Json& view = (*views)[v];

@@ -6,8 +6,8 @@
 
 namespace morphbake {
 
-/// Checks each index of glTF itself, whether it is of use to us or not: what is written would
-/// dangle likewise.
+/// Checks each index of glTF itself and of compressed geometry and pictures, whether it is of use
+/// to us or not: what is written would dangle likewise.
 ///
 /// @param document  its JSON, of which the types of fields were checked
 /// @throws BakeError "gltf.invalid" for the first that is beyond the end of its list

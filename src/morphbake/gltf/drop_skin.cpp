@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "morphbake/gltf/animation_pointer.h"
 #include "morphbake/gltf/morph_writing.h"
 #include "morphbake/gltf/nodes.h"
 
@@ -44,6 +45,25 @@ void remove_unused_skin(MorphWriting& writing, std::size_t skin) {
   }
 }
 
+/// Lets what moves the weights of mesh `own` move those of its copy too.
+void copy_pointed_channels(MorphWriting& writing, std::size_t own) {
+  const auto animations = writing.draft.json.find("animations");
+  if (animations == writing.draft.json.end()) return;
+  for (Json& animation : *animations) {
+    Json& channels = animation.at("channels");
+    const std::size_t count = channels.size();
+    for (std::size_t c = 0; c < count; ++c) {
+      const auto pointed = pointed_property(channels[c].at("target"));
+      if (!pointed || pointed->list != "meshes" || pointed->index != own) continue;
+      if (pointed->property != "weights") continue;
+      Json copy = channels[c];
+      copy["target"]["extensions"]["KHR_animation_pointer"]["pointer"] =
+          fmt::format("/meshes/{}/weights", writing.mesh);
+      channels.push_back(std::move(copy));
+    }
+  }
+}
+
 }  // namespace
 
 void separate_posed_mesh(MorphWriting& writing) {
@@ -55,8 +75,10 @@ void separate_posed_mesh(MorphWriting& writing) {
   if (!std::any_of(nodes.begin(), nodes.end(), is_posed_too)) return;
   Json& meshes = writing.draft.json["meshes"];
   meshes.push_back(Json(mesh_of(writing)));
+  const auto own = static_cast<std::size_t>(writing.mesh);
   writing.mesh = static_cast<int>(meshes.size()) - 1;
   node_of(writing)["mesh"] = writing.mesh;
+  copy_pointed_channels(writing, own);
 }
 
 void drop_skin(MorphWriting& writing) {

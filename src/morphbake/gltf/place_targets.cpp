@@ -50,19 +50,19 @@ class StillDisplacements {
   int index_ = -1, zeros_ = -1;  // bufferViews, one of each a file
 };
 
-/// Gives a primitive's targets the same attributes: where a target lacks one that others have,
-/// three.js takes the vertices' own normals or colours for displacements.
+/// Gives a primitive's targets the same of the attributes that clients know: where a target lacks
+/// one that others have, three.js takes the vertices' own normals or colours for displacements.
 void complete_targets(StillDisplacements& still, const Json& accessors, Eigen::Index vertices,
                       Json& targets) {
-  std::map<std::string, std::string> types;
-  for (const Json& target : targets) {
-    for (const auto& [name, accessor] : target.items()) {
-      types.try_emplace(name, accessors.at(accessor.get<std::size_t>()).at("type"));
-    }
-  }
-  for (Json& target : targets) {
-    for (const auto& [name, type] : types) {
-      if (!target.contains(name)) target[name] = still.accessor_of(vertices, type);
+  for (const char* name :
+       {"POSITION", "NORMAL", "TANGENT", "TEXCOORD_0", "TEXCOORD_1", "COLOR_0"}) {
+    const auto has = [name](const Json& target) { return target.contains(name); };
+    const auto first = std::find_if(targets.begin(), targets.end(), has);
+    if (first == targets.end()) continue;
+    const std::string type = accessors.at(first->at(name).get<std::size_t>()).at("type");
+    if (!type.starts_with("VEC")) continue;  // not legal; whatever it means
+    for (Json& target : targets) {
+      if (!has(target)) target[name] = still.accessor_of(vertices, type);
     }
   }
 }

@@ -20,8 +20,8 @@ struct Resource {
   std::string media_type;  ///< that a data URI says
 };
 
-constexpr std::size_t kMostImageBytes = std::size_t{1}
-                                        << 29;  // encoded: pixels are bounded elsewhere
+// Encoded: pixels are bounded elsewhere. While it is read, a file is held twice.
+constexpr std::size_t kMostImageBytes = std::size_t{1} << 28;
 
 /// What is read of a file.
 struct Extent {
@@ -37,8 +37,13 @@ Bytes file_bytes(const GltfDocument& document, const std::string& uri, const Ext
         extent.is_whole ? read_file(file, extent.most) : read_file_start(file, extent.most);
     return {bytes.begin(), bytes.end()};
   } catch (const BakeError& error) {
+    const Problem& problem = error.problems().front();
+    if (problem.code == "files.too-large") {
+      fail_at(document, pointer, "gltf.too-large",
+              fmt::format("the file \"{}\": {}", uri, problem.message), "use a smaller image");
+    }
     fail_at(document, pointer, "gltf.missing-file",
-            fmt::format("the file \"{}\": {}", uri, error.problems().front().message));
+            fmt::format("the file \"{}\": {}", uri, problem.message));
   }
 }
 

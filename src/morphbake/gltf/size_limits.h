@@ -16,7 +16,7 @@ constexpr std::size_t kMostZeros = std::size_t{1} << 23;
 constexpr std::size_t kMostJsonValues = std::size_t{1} << 21;
 
 /// Bytes of a file's JSON, with the data in it: text takes some times its size while it is parsed.
-constexpr std::size_t kMostJsonBytes = std::size_t{1} << 28;
+constexpr std::size_t kMostJsonBytes = std::size_t{5} << 25;
 
 /// Checks the JSON's names and strings, but for the URIs of buffers and images: 64 MiB in all.
 ///

@@ -64,7 +64,7 @@ std::string_view packed_bytes(const Unpacking& at, const Json& range, const std:
   const auto buffer = range.at("buffer").get<std::size_t>();
   const auto begin = range.value("byteOffset", std::size_t{0});
   const auto length = range.at("byteLength").get<std::size_t>();
-  const std::size_t size = buffer < at.buffers.size() ? at.buffers[buffer].size() : 0;
+  const std::size_t size = at.buffers[buffer].size();
   if (begin > size || length > size - begin) {
     fail_at(at.document, pointer, "gltf.invalid",
             fmt::format("bytes {} to {} of buffer {} do not exist; it has {}", begin,

@@ -19,7 +19,7 @@ namespace morphbake {
 namespace {
 
 constexpr int kPlaces = 3;  // how many places a message names
-constexpr int kMostAround = 4096;
+constexpr int kMostAround = 16384;
 
 std::string place_of(const Positions& positions, int vertex) {
   return fmt::format("({:.4g}, {:.4g}, {:.4g})", positions(vertex, 0), positions(vertex, 1),

@@ -73,7 +73,7 @@ void check_manifold(const SourceMesh& source, const Connectivity& connectivity,
 /// Checks what new triangles can be laid over: CGAL and our own walks look around a vertex for each
 /// of its triangles.
 ///
-/// @throws BakeError "connectivity.hub" when more than 4096 triangles meet at a vertex
+/// @throws BakeError "connectivity.hub" when more than 16384 triangles meet at a vertex
 void check_hubs(const SourceMesh& source, const Connectivity& connectivity,
                 const Positions& positions);
 

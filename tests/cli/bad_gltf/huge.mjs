@@ -44,7 +44,14 @@ const samplers = (count, keys, ownOutputs = false) => (gltf) => {
 
 export const baked = {
   '70 MB of text': [(g) => { g.nodes[0].name = 'data:'.repeat(1.4e7); }, LARGE],
-  '270 MB of JSON': [(g) => Buffer.concat([Buffer.from(JSON.stringify(g)), Buffer.alloc(2.7e8, ' ')]), LARGE],
+  'a thousand pointers to the weights of two thousand nodes': [(g) => {
+    g.meshes[0].primitives[0].targets = [{ POSITION: 0, NORMAL: 1 }];
+    g.nodes.push(...new Array(2000).fill({ mesh: 0 }));
+    const input = addAccessor(g, new Float32Array([0, 1]), 'SCALAR', FLOAT);
+    const target = { path: 'pointer', extensions: { KHR_animation_pointer: { pointer: '/meshes/0/weights' } } };
+    g.animations = [{ samplers: [{ input, output: input }], channels: new Array(1000).fill({ sampler: 0, target }) }];
+  }, '#/animations/0/channels', LARGE],
+  '170 MB of JSON': [(g) => Buffer.concat([Buffer.from(JSON.stringify(g)), Buffer.alloc(1.7e8, ' ')]), LARGE],
   '10,000 primitives': [primitives(10000), '[connectivity.different-triangles]'],
   'one megabyte of positions, 10,000 primitives': [withZeros(BIG, (g) => {
     g.accessors.push(vectors(87381));
@@ -123,7 +130,15 @@ export const legal = {
   '20,000 samplers of weights': [samplers(20000, 2)],
   '1,000 samplers of one long curve': [samplers(1000, 200000)],
   '5,000 targets without normals': [(g) => { g.meshes[0].primitives[0].targets = new Array(5000).fill({ POSITION: 0 }); }],
+};
+
+/** Large, and read. */
+export const read = {
   'a 64 MB binary chunk': [withZeros(64e6, () => {})],
+  'a target of 100,000 attributes': [(g) => {
+    const names = Array.from({ length: 1e5 }, (_, i) => [`_A${i}`, 0]);
+    g.meshes[0].primitives[0].targets = [Object.fromEntries([...names, ['POSITION', 0], ['NORMAL', 1]]), { POSITION: 0 }];
+  }],
   '64 MB of spaces in the JSON': [(g) => Buffer.concat([Buffer.from(`${JSON.stringify(g).slice(0, -1)}`), Buffer.alloc(64e6, ' '), Buffer.from('}')])],
   'a name of 10 MB': [(g) => { g.nodes[0].name = 'n'.repeat(1e7); }],
   '60 MB of text': [(g) => { g.extras = 't'.repeat(6e7); }],

@@ -135,6 +135,7 @@ const refused = (change, code = '[gltf.meshopt]', view = 0) => [meshopt(change),
 const OUT_OF_RANGE = '[gltf.out-of-range]';
 
 export const meshoptCases = {
+  'meshopt of a missing buffer': refused(([v]) => { v.buffer = 9; v.byteOffset = 0; v.byteLength = 0; }, '[gltf.invalid]'),
   'meshopt of more vertices': refused(([v], g) => { v.count = 6000; g.bufferViews[0].byteLength = 72000; g.buffers[0].byteLength = 72048; g.bufferViews[1].byteOffset = 72000; }),
   'meshopt of other vertices than its view': refused(([v]) => { v.count = 5; }, 'gltf.'),
   'meshopt of two billion vertices': [meshopt(([v]) => { v.count = 2 ** 31; }), 'gltf.'],

@@ -56,6 +56,9 @@ const dangling = {
   'missing texture': [set('materials', [{ pbrMetallicRoughness: { baseColorTexture: { index: 2 } } }]),
     '#/materials/0/pbrMetallicRoughness/baseColorTexture/index', INVALID],
   'missing image': [set('textures', [{ source: 0 }]), '#/textures/0/source', INVALID],
+  'missing picture of an extension': [(g) => { g.textures = [{ extensions: { EXT_texture_webp: { source: 3 } } }]; },
+    '#/textures/0/extensions/EXT_texture_webp/source', INVALID],
+  'an empty list of views': [all(set('bufferViews', []), set('buffers', undefined)), '#/accessors/0/bufferView', INVALID],
   'missing texture sampler': [set('textures', [{ sampler: 7 }]), '#/textures/0/sampler', INVALID],
   'texture -1': [set('materials', [{ emissiveTexture: { index: -1 } }]), '#/materials/0/emissiveTexture/index', 'gltf.'],
   'missing sampler of a node that is not morphed': [(g) => {
