@@ -25,7 +25,7 @@ struct OneTrack {
     const Mesh mesh = test::sphere(8, 10);
     timeline.duration = 2;
     timeline.frames_per_second = 10;
-    timeline.tracks = {{"grow", {-1, {{0}, {1}}, 1, Fit::None}, begin, end, ease}};
+    timeline.tracks = {{"grow", {-1, Eigen::Vector2d(0, 1), 1, Fit::None}, begin, end, ease}};
     const Eigen::MatrixXd none = Eigen::MatrixXd::Zero(2, mesh.positions.rows());
     separable.fields = {{"start", none, {}}, {"grow", none, {0}}};
     shapes.base = mesh.positions;

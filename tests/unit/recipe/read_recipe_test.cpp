@@ -50,9 +50,9 @@ TEST(ReadRecipe, FillsInTheDefaultsOfTheSchema) {
             recipe.timeline.tracks[0].edit.amount);
   EXPECT_EQ(by_default("/definitions/edit/properties/amount"), recipe.states[0].edits[0].amount);
   EXPECT_EQ(by_default("/definitions/track/properties/ease"), "smoothstep");
-  EXPECT_EQ(recipe.timeline.tracks[0].ease, Ease::Smoothstep);
+  EXPECT_EQ(recipe.timeline.tracks[0].ease.kind, Ease::Smoothstep);
   EXPECT_EQ(by_default("/definitions/key/properties/ease"), "linear");
-  EXPECT_EQ(Key{}.ease, Ease::Linear);
+  EXPECT_EQ(Key{}.ease.kind, Ease::Linear);
   EXPECT_EQ(by_default("/definitions/region/properties/ball/properties/distance"), "geodesic");
   EXPECT_EQ(std::get<BallRegion>(recipe.regions[0].shape).distance, DistanceMeasure::Geodesic);
   EXPECT_EQ(by_default("/definitions/output/properties/targets"), "tracks");

@@ -22,7 +22,7 @@ TEST(ApplyEdit, IsEquationSeven) {
   TransitionState T(2, 3);
   T << 1, 0.5, 0, 0, 0.5, 1;
   const Eigen::VectorXd d = Eigen::Vector3d(0, 0.25, 1);
-  const Edit edit{0, {{0}, {1}}, 1, Fit::None};
+  const Edit edit{0, Eigen::Vector2d(0, 1), 1, Fit::None};
   const TransitionState edited =
       apply_edit(T, edit, edit_shares(edit, fixed_fields({d}), 3, {0, 0.8}));
   EXPECT_DOUBLE_EQ(edited(1, 0), 0.8);                        // inside: the amount
