@@ -10,11 +10,10 @@
 
 #include "morphbake/gltf/names.h"
 #include "morphbake/gltf/skin.h"
+#include "morphbake/json/nearest.h"
 
 namespace morphbake {
 namespace {
-
-constexpr std::size_t kMostShown = 20;  // nodes in a message
 
 struct Visit {
   int node;
@@ -25,11 +24,7 @@ struct Visit {
 std::vector<int> parentless_nodes(const tinygltf::Model& model) {
   std::vector<bool> is_child(model.nodes.size(), false);
   for (const tinygltf::Node& node : model.nodes) {
-    for (const int child : node.children) {
-      if (child >= 0 && static_cast<std::size_t>(child) < is_child.size()) {
-        is_child[static_cast<std::size_t>(child)] = true;
-      }
-    }
+    for (const int child : node.children) is_child[static_cast<std::size_t>(child)] = true;
   }
   std::vector<int> roots;
   for (std::size_t node = 0; node < is_child.size(); ++node) {
@@ -83,15 +78,9 @@ std::string shown_node(const GltfDocument& document, int node) {
 }
 
 std::string shown_nodes(const GltfDocument& document, const std::vector<int>& nodes) {
-  std::vector<std::string> shown;
-  for (const int node : nodes) {
-    if (shown.size() == kMostShown) {
-      shown.push_back(fmt::format("and {} more", nodes.size() - kMostShown));
-      break;
-    }
-    shown.push_back(shown_node(document, node));
-  }
-  return fmt::format("{}", fmt::join(shown, ", "));
+  std::vector<std::string> names;
+  for (const int node : nodes) names.push_back(shown_node(document, node));
+  return name_list(names);
 }
 
 bool has_mesh(const GltfDocument& document, int node) {

@@ -14,12 +14,18 @@ using Attributes = std::map<std::string, int>;
 
 /// An attribute of three numbers a vertex, or no rows. What has another number of them is not read.
 Float3s read_vectors(const GltfDocument& document, const Attributes& attributes,
-                     const std::string& name, std::size_t vertices, const std::string& pointer) {
+                     const std::string& name, const std::string& pointer) {
   const auto found = attributes.find(name);
   if (found == attributes.end()) return {};
-  const std::string place = pointer + "/" + name;
-  check_count(document, found->second, vertices, place);
-  return read_float3s(document, found->second, place);
+  return read_float3s(document, found->second, pointer + "/" + name);
+}
+
+/// Checks that all of them are of as many vertices, whether we look at them or not.
+void check_counts(const GltfDocument& document, const Attributes& attributes, std::size_t vertices,
+                  const std::string& pointer) {
+  for (const auto& [name, accessor] : attributes) {
+    check_count(document, accessor, vertices, pointer + "/" + name);
+  }
 }
 
 /// The vertices in the order in which triangles take them.
@@ -97,10 +103,8 @@ PrimitiveGeometry read_primitive_geometry(const GltfDocument& document,
   geometry.positions =
       read_float3s(document, primitive.attributes.at("POSITION"), attributes + "/POSITION");
   const auto vertices = static_cast<std::size_t>(geometry.positions.rows());
-  for (const auto& [name, accessor] : primitive.attributes) {
-    check_count(document, accessor, vertices, attributes + "/" + name);
-  }
-  geometry.normals = read_vectors(document, primitive.attributes, "NORMAL", vertices, attributes);
+  check_counts(document, primitive.attributes, vertices, attributes);
+  geometry.normals = read_vectors(document, primitive.attributes, "NORMAL", attributes);
   geometry.triangles = read_triangles(document, primitive, vertices, pointer);
   return geometry;
 }
@@ -109,9 +113,9 @@ TargetGeometry read_target(const GltfDocument& document, const tinygltf::Primiti
                            std::size_t target, Eigen::Index vertices, const std::string& pointer) {
   const std::string place = fmt::format("{}/targets/{}", pointer, target);
   const Attributes& attributes = primitive.targets[target];
-  const auto count = static_cast<std::size_t>(vertices);
-  return {read_vectors(document, attributes, "POSITION", count, place),
-          read_vectors(document, attributes, "NORMAL", count, place)};
+  check_counts(document, attributes, static_cast<std::size_t>(vertices), place);
+  return {read_vectors(document, attributes, "POSITION", place),
+          read_vectors(document, attributes, "NORMAL", place)};
 }
 
 std::size_t target_count(const GltfDocument& document, int mesh) {
