@@ -54,6 +54,7 @@ int main(int argc, char** argv) {
     bench_solvers(vertices, figures);
     bench_regions(vertices, figures);
   }
+  bench_eigenvectors(50000, figures);
   bench_load(500000, figures);
   bench_export(100000, figures);
   bench_preview(100000, figures);

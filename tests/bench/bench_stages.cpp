@@ -80,9 +80,7 @@ MeshMorph morph_of(const Mesh& mesh, int targets) {
     morph.primitives[0].target_normals.push_back(normals * 0.1F);
     morph.target_names.push_back(fmt::format("t{}", k));
   }
-  morph.animation_name = "bench";
-  morph.key_times = {0, 1};
-  morph.key_weights = Eigen::MatrixXf::Identity(2, targets);
+  morph.clips = {{"bench", {0, 1}, Eigen::MatrixXf::Identity(2, targets)}};
   return morph;
 }
 
@@ -93,7 +91,7 @@ void bench_regions(int vertices, Figures& figures) {
   const Mesh mesh = torus_of(vertices);
   const SurfacePoint centre{0, {0.3, 0.3, 0.4}};
   const Pair pair = time_pair(
-      1, [&] { edge_distances(mesh, centre); }, [&] { geodesic_distances(mesh, {centre}); });
+      1, [&] { edge_distances(mesh, {centre}); }, [&] { geodesic_distances(mesh, {{centre}}); });
   figures.push_back({group, "Dijkstra", pair.first * 1e3, "ms", ""});
   figures.push_back({group, "geodesic", pair.second * 1e3, "ms", ""});
 }
