@@ -86,6 +86,7 @@ void measure_projection(const fs::path& file) {
   report.connectivity = {ConnectivityMode::Remesh,
                          shared.connectivity.vertex_count,
                          static_cast<int>(shared.connectivity.triangles.rows()),
+                         {},
                          {{"project", seconds}},
                          measure_triangulation(surfaces, shared)};
   std::cout << report_to_json(report);

@@ -145,23 +145,35 @@ void convert_span(const ElementSpan& span, int type, bool normalised, std::size_
 }
 
 template <typename Number>
-std::vector<std::uint32_t> convert_unsigned(const ElementSpan& span, std::size_t columns) {
-  std::vector<std::uint32_t> values(span.count * columns, 0);
-  for (std::size_t i = 0; span.first && i < values.size(); ++i) {
-    Number value;
-    std::memcpy(&value, span.first + (i / columns) * span.stride + (i % columns) * sizeof value,
-                sizeof value);
-    values[i] = value;
+void convert_unsigned(const ElementSpan& span, std::size_t columns, std::uint32_t* out) {
+  for (std::size_t i = 0; i < span.count; ++i) {
+    for (std::size_t c = 0; c < columns; ++c) {
+      Number value;
+      std::memcpy(&value, span.first + i * span.stride + c * sizeof value, sizeof value);
+      out[i * columns + c] = value;
+    }
   }
-  return values;
 }
 
 /// Elements of 1, 2 or 4 unsigned bytes a number.
-std::vector<std::uint32_t> convert_unsigned(const ElementSpan& span, std::size_t bytes,
+void convert_unsigned(const ElementSpan& span, std::size_t bytes, std::size_t columns,
+                      std::uint32_t* out) {
+  if (!span.first) {
+    std::fill_n(out, span.count * columns, 0U);
+  } else if (bytes == 1) {
+    convert_unsigned<std::uint8_t>(span, columns, out);
+  } else if (bytes == 2) {
+    convert_unsigned<std::uint16_t>(span, columns, out);
+  } else {
+    convert_unsigned<std::uint32_t>(span, columns, out);
+  }
+}
+
+std::vector<std::uint32_t> unsigned_numbers(const ElementSpan& span, std::size_t bytes,
                                             std::size_t columns) {
-  if (bytes == 1) return convert_unsigned<std::uint8_t>(span, columns);
-  if (bytes == 2) return convert_unsigned<std::uint16_t>(span, columns);
-  return convert_unsigned<std::uint32_t>(span, columns);
+  std::vector<std::uint32_t> values(span.count * columns);
+  convert_unsigned(span, bytes, columns, values.data());
+  return values;
 }
 
 bool is_unsigned(int type) {
@@ -193,7 +205,7 @@ SparseElements sparse_elements(const GltfDocument& document, int index, std::siz
   const ElementSpan rows =
       span_of(document, {view_of(indices), offset_of(indices), width, count}, pointer + "/indices");
   SparseElements found;
-  found.rows = convert_unsigned(rows, width, 1);
+  found.rows = unsigned_numbers(rows, width, 1);
   found.values =
       span_of(document, {view_of(values), offset_of(values), element, count}, pointer + "/values");
   const std::size_t all = document.model.accessors[at].count;
@@ -246,8 +258,9 @@ void read_numbers(const GltfDocument& document, int index, const ElementSpan& sp
   if (type != TINYGLTF_COMPONENT_TYPE_FLOAT) return;
   const float* first = out;
   const float* end = first + span.count * columns;
+  const Eigen::Map<const Eigen::ArrayXf> numbers(first, end - first);
+  if ((numbers - numbers).sum() == 0) return;  // the difference is NaN where one is not finite
   const float* bad = std::find_if(first, end, [](float value) { return !std::isfinite(value); });
-  if (bad == end) return;
   fail_at(document, pointer, "gltf.not-finite",
           fmt::format("element {} of accessor {} is not a finite number",
                       static_cast<std::size_t>(bad - first) / columns, index));
@@ -271,6 +284,10 @@ std::size_t accessor_count(const GltfDocument& document, int accessor, const std
 int accessor_columns(const GltfDocument& document, int accessor, const std::string& pointer) {
   const int type = accessor_at(document, accessor, pointer).type;
   return tinygltf::GetNumComponentsInType(static_cast<std::uint32_t>(type));
+}
+
+std::size_t present_count(const GltfDocument& document, int accessor, const std::string& pointer) {
+  return element_span(document, accessor, pointer).count;
 }
 
 void check_count(const GltfDocument& document, int accessor, std::size_t vertices,
@@ -298,21 +315,28 @@ Float3s read_float3s(const GltfDocument& document, int index, const std::string&
   return read_rows<Float3s>(document, index, pointer);
 }
 
-std::vector<std::uint32_t> read_indices(const GltfDocument& document, int index,
-                                        const std::string& pointer) {
+void read_indices(const GltfDocument& document, int index, std::size_t vertices,
+                  const std::string& pointer, std::span<int> out) {
   const tinygltf::Accessor& accessor = accessor_at(document, index, pointer);
   if (!is_unsigned(accessor.componentType) || accessor.type != TINYGLTF_TYPE_SCALAR) {
     fail_at(document, pointer, "gltf.accessor",
             fmt::format("accessor {} holds no indices: it needs unsigned scalars", index));
   }
   const std::size_t width = component_bytes(accessor.componentType);
-  std::vector<std::uint32_t> indices =
-      convert_unsigned(element_span(document, index, pointer), width, 1);
-  if (!is_sparse(document, index)) return indices;
-  const SparseElements sparse = sparse_elements(document, index, width);
-  const std::vector<std::uint32_t> values = convert_unsigned(sparse.values, width, 1);
-  for (std::size_t i = 0; i < values.size(); ++i) indices[sparse.rows[i]] = values[i];
-  return indices;
+  // Straight to where they stay, as what they are in the file.
+  const std::span indices(reinterpret_cast<std::uint32_t*>(out.data()), out.size());
+  convert_unsigned(element_span(document, index, pointer), width, 1, indices.data());
+  if (is_sparse(document, index)) {
+    const SparseElements sparse = sparse_elements(document, index, width);
+    const std::vector<std::uint32_t> values = unsigned_numbers(sparse.values, width, 1);
+    for (std::size_t i = 0; i < values.size(); ++i) indices[sparse.rows[i]] = values[i];
+  }
+  const auto bad = std::find_if(indices.begin(), indices.end(),
+                                [vertices](std::uint32_t vertex) { return vertex >= vertices; });
+  if (bad == indices.end()) return;
+  fail_at(document, pointer, "gltf.accessor",
+          fmt::format("index {} of accessor {} is {}, but there are {} vertices",
+                      bad - indices.begin(), index, *bad, vertices));
 }
 
 std::vector<std::uint32_t> read_joints(const GltfDocument& document, int index,
@@ -326,7 +350,7 @@ std::vector<std::uint32_t> read_joints(const GltfDocument& document, int index,
                         "element",
                         index));
   }
-  return convert_unsigned(element_span(document, index, pointer),
+  return unsigned_numbers(element_span(document, index, pointer),
                           component_bytes(accessor.componentType), 4);
 }
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <span>
 
 #include "morphbake/gltf/accessors.h"
 
@@ -28,44 +29,35 @@ void check_counts(const GltfDocument& document, const Attributes& attributes, st
   }
 }
 
-/// The vertices in the order in which triangles take them.
-std::vector<std::uint32_t> vertex_order(const GltfDocument& document,
-                                        const tinygltf::Primitive& primitive, std::size_t vertices,
-                                        const std::string& pointer) {
-  if (primitive.indices < 0) {
-    std::vector<std::uint32_t> order(vertices);
-    std::iota(order.begin(), order.end(), 0U);
-    return order;
-  }
-  const std::string place = pointer + "/indices";
-  std::vector<std::uint32_t> order = read_indices(document, primitive.indices, place);
-  const auto bad = std::find_if(order.begin(), order.end(),
-                                [vertices](std::uint32_t vertex) { return vertex >= vertices; });
-  if (bad != order.end()) {
-    fail_at(document, place, "gltf.accessor",
-            fmt::format("index {} of accessor {} is {}, but there are {} vertices",
-                        bad - order.begin(), primitive.indices, *bad, vertices));
-  }
-  return order;
+std::size_t corner_count(const GltfDocument& document, const tinygltf::Primitive& primitive,
+                         std::size_t vertices, const std::string& pointer) {
+  if (primitive.indices < 0) return vertices;
+  return present_count(document, primitive.indices, pointer + "/indices");
 }
 
-TriangleIndices triangles_of_list(const std::vector<std::uint32_t>& order) {
-  TriangleIndices triangles(static_cast<Eigen::Index>(order.size() / 3), 3);
-  std::copy(order.begin(), order.end(), triangles.data());
-  return triangles;
+/// The vertices in the order in which triangles take them.
+///
+/// @param out  corner_count of them
+void read_corners(const GltfDocument& document, const tinygltf::Primitive& primitive,
+                  std::size_t vertices, const std::string& pointer, std::span<int> out) {
+  if (primitive.indices < 0) {
+    std::iota(out.begin(), out.end(), 0);
+  } else {
+    read_indices(document, primitive.indices, vertices, pointer + "/indices", out);
+  }
 }
 
 /// Triangles of a strip (glTF 2.0, 3.7.2.1: {i, i + 1 + i % 2, i + 2 - i % 2}) or a fan
 /// ({i + 1, i + 2, 0}).
-TriangleIndices triangles_of_row(const std::vector<std::uint32_t>& order, bool is_fan) {
+TriangleIndices triangles_of_row(const std::vector<int>& order, bool is_fan) {
   std::vector<int> corners;
   for (std::size_t i = 0; i + 2 < order.size(); ++i) {
     const std::size_t odd = i % 2;
-    const std::uint32_t a = is_fan ? order[i + 1] : order[i];
-    const std::uint32_t b = is_fan ? order[i + 2] : order[i + 1 + odd];
-    const std::uint32_t c = is_fan ? order[0] : order[i + 2 - odd];
+    const int a = is_fan ? order[i + 1] : order[i];
+    const int b = is_fan ? order[i + 2] : order[i + 1 + odd];
+    const int c = is_fan ? order[0] : order[i + 2 - odd];
     if (a == b || b == c || c == a) continue;
-    for (const std::uint32_t corner : {a, b, c}) corners.push_back(static_cast<int>(corner));
+    corners.insert(corners.end(), {a, b, c});
   }
   return Eigen::Map<const TriangleIndices>(corners.data(),
                                            static_cast<Eigen::Index>(corners.size() / 3), 3);
@@ -79,15 +71,19 @@ TriangleIndices read_triangles(const GltfDocument& document, const tinygltf::Pri
             fmt::format("the primitive has mode {}: points or lines, which have no surface", mode),
             "export triangles (4), strips (5) or fans (6)");
   }
-  const std::vector<std::uint32_t> order = vertex_order(document, primitive, vertices, pointer);
+  const std::size_t corners = corner_count(document, primitive, vertices, pointer);
   if (mode != TINYGLTF_MODE_TRIANGLES) {
+    std::vector<int> order(corners);
+    read_corners(document, primitive, vertices, pointer, order);
     return triangles_of_row(order, mode == TINYGLTF_MODE_TRIANGLE_FAN);
   }
-  if (order.size() % 3 != 0) {
+  if (corners % 3 != 0) {
     fail_at(document, pointer, "gltf.accessor",
-            fmt::format("triangles need a multiple of 3 indices, not {}", order.size()));
+            fmt::format("triangles need a multiple of 3 indices, not {}", corners));
   }
-  return triangles_of_list(order);
+  TriangleIndices triangles(static_cast<Eigen::Index>(corners / 3), 3);
+  read_corners(document, primitive, vertices, pointer, {triangles.data(), corners});
+  return triangles;
 }
 
 }  // namespace

@@ -77,7 +77,8 @@ Bytes buffer_bytes(const GltfDocument& document, const Json& buffer, std::string
     return bytes;
   }
   const std::string_view chunk = binary.substr(0, size);
-  return {chunk.begin(), chunk.end()};
+  const auto* first = reinterpret_cast<const unsigned char*>(chunk.data());
+  return {first, first + chunk.size()};
 }
 
 /// Where a buffer has no bytes of its own, all its bufferViews are compressed.

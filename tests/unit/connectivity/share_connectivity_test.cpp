@@ -16,14 +16,6 @@ Mesh deformed(Mesh mesh, unsigned seed) {
   return mesh;
 }
 
-TEST(WeldRows, JoinsExactlyEqualPoints) {
-  Positions rows(5, 3);
-  rows << 0, 0, 0, 1, 0, 0, -0.0, 0, 0, 1, 0, 1e-300, 1, 0, 0;
-  int count = 0;
-  EXPECT_EQ(weld_rows(rows, count), (std::vector<int>{0, 1, 0, 2, 1}));
-  EXPECT_EQ(count, 3);
-}
-
 TEST(ShareConnectivity, WeldsOnlyWhatLiesTogetherInEverySource) {
   // Two triangles that touch in the first source and are apart in the second.
   Mesh closed{Positions(6, 3), Triangles(2, 3)};
