@@ -55,8 +55,8 @@ TEST(ReadRecipe, FillsInTheDefaultsOfTheSchema) {
   EXPECT_EQ(Key{}.ease.kind, Ease::Linear);
   EXPECT_EQ(by_default("/definitions/region/properties/ball/properties/distance"), "geodesic");
   EXPECT_EQ(std::get<BallRegion>(recipe.regions[0].shape).distance, DistanceMeasure::Geodesic);
-  EXPECT_EQ(by_default("/definitions/output/properties/targets"), "tracks");
-  EXPECT_EQ(recipe.outputs[0].targets, TargetKind::Tracks);
+  EXPECT_EQ(by_default("/definitions/output/properties/targets"), "auto");
+  EXPECT_EQ(recipe.outputs[0].targets, TargetKind::Auto);
   const std::string preview = "/definitions/preview/properties/";
   EXPECT_EQ(by_default(preview + "turntable/properties/size"),
             Json({recipe.preview->width, recipe.preview->height}));
