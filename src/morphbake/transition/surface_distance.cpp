@@ -1,5 +1,7 @@
 #include "morphbake/transition/surface_distance.h"
 
+#include <CGAL/Eigen_matrix.h>
+#include <CGAL/Eigen_vector.h>
 #include <CGAL/Heat_method_3/Surface_mesh_geodesic_distances_3.h>
 #include <CGAL/Simple_cartesian.h>
 #include <CGAL/Surface_mesh.h>
@@ -13,6 +15,7 @@
 #include <utility>
 
 #include "morphbake/diagnostics/problem.h"
+#include "morphbake/linear/cholesky_factor.h"
 #include "morphbake/mesh/adjacency.h"
 
 namespace morphbake {
@@ -144,9 +147,45 @@ bool has_needles(const Mesh& mesh) {
   return false;
 }
 
-using HeatMethod =
-    CGAL::Heat_method_3::Surface_mesh_geodesic_distances_3<Surface,
-                                                           CGAL::Heat_method_3::Intrinsic_Delaunay>;
+/// CGAL's SparseLinearAlgebraWithFactorTraits_d by our factor: Eigen's, its default, takes several
+/// times as long on large meshes.
+class HeatSolver {
+ public:
+  using NT = double;
+  using Matrix = CGAL::Eigen_sparse_matrix<double>;
+  using Vector = CGAL::Eigen_vector<double>;
+
+  bool factor(const Matrix& of, NT& scale) {
+    scale = 1;
+    SymmetricSystem system{of.eigen_object(), {}, 0};
+    const auto rows = static_cast<std::size_t>(system.matrix.rows());
+    const bool is_singular = sums_to_zero(system.matrix);
+    system.singular_block.assign(rows, is_singular ? 0 : -1);
+    system.singular_block_count = is_singular ? 1 : 0;
+    factor_.emplace(system);
+    return true;
+  }
+
+  bool linear_solver(const Matrix& b, Vector& x) {
+    x = factor_->solve(Eigen::MatrixXd(b.eigen_object())).col(0);
+    return true;
+  }
+
+ private:
+  /// Of the heat method's two matrices the Laplacian alone has rows that sum to 0, but for
+  /// rounding; in the other one the vertices' areas are left.
+  static bool sums_to_zero(const Eigen::SparseMatrix<double>& matrix) {
+    constexpr double kRounding = 1e-13;
+    const Eigen::VectorXd ones = Eigen::VectorXd::Ones(matrix.cols());
+    const Eigen::VectorXd sums = (matrix * ones).cwiseAbs(), sizes = matrix.cwiseAbs() * ones;
+    return (sums.array() <= kRounding * sizes.array()).all();
+  }
+
+  std::optional<CholeskyFactor> factor_;
+};
+
+using HeatMethod = CGAL::Heat_method_3::Surface_mesh_geodesic_distances_3<
+    Surface, CGAL::Heat_method_3::Intrinsic_Delaunay, CGAL::Default, HeatSolver>;
 
 /// Distances from the sources of `heat` to the first `count` vertices.
 Eigen::VectorXd distances_of(HeatMethod& heat, Surface& surface,
