@@ -32,7 +32,7 @@ void check_counts(const GltfDocument& document, const Attributes& attributes, st
 std::size_t corner_count(const GltfDocument& document, const tinygltf::Primitive& primitive,
                          std::size_t vertices, const std::string& pointer) {
   if (primitive.indices < 0) return vertices;
-  return present_count(document, primitive.indices, pointer + "/indices");
+  return index_count(document, primitive.indices, pointer + "/indices");
 }
 
 /// The vertices in the order in which triangles take them.
