@@ -25,7 +25,7 @@ Float3s read_vectors(const GltfDocument& document, const Attributes& attributes,
 void check_counts(const GltfDocument& document, const Attributes& attributes, std::size_t vertices,
                   const std::string& pointer) {
   for (const auto& [name, accessor] : attributes) {
-    check_count(document, accessor, vertices, pointer + "/" + name);
+    check_count(document, accessor, vertices, fmt::format("{}/{}", pointer, name));
   }
 }
 
