@@ -43,7 +43,8 @@ function compare(file, plain, found) {
     check(meshes.some(isAlike),
       `no mesh of Blender's has ${mesh.vertices} vertices and moves by ${mesh.moves}; ${JSON.stringify(meshes)}`);
   }
-  const clips = plain.json.animations?.length ?? 0;
+  // Blender does not know KHR_animation_pointer: a clip of such channels alone is none to it.
+  const clips = (plain.json.animations ?? []).filter(({ channels }) => channels.some(({ target }) => target.path !== 'pointer')).length;
   check(found.actions >= clips, `Blender has ${found.actions} actions, expected ${clips} at least`);
 }
 

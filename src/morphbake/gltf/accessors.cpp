@@ -286,10 +286,6 @@ int accessor_columns(const GltfDocument& document, int accessor, const std::stri
   return tinygltf::GetNumComponentsInType(static_cast<std::uint32_t>(type));
 }
 
-std::size_t present_count(const GltfDocument& document, int accessor, const std::string& pointer) {
-  return element_span(document, accessor, pointer).count;
-}
-
 void check_count(const GltfDocument& document, int accessor, std::size_t vertices,
                  const std::string& pointer) {
   const std::size_t count = accessor_count(document, accessor, pointer);
@@ -315,13 +311,18 @@ Float3s read_float3s(const GltfDocument& document, int index, const std::string&
   return read_rows<Float3s>(document, index, pointer);
 }
 
-void read_indices(const GltfDocument& document, int index, std::size_t vertices,
-                  const std::string& pointer, std::span<int> out) {
+std::size_t index_count(const GltfDocument& document, int index, const std::string& pointer) {
   const tinygltf::Accessor& accessor = accessor_at(document, index, pointer);
   if (!is_unsigned(accessor.componentType) || accessor.type != TINYGLTF_TYPE_SCALAR) {
     fail_at(document, pointer, "gltf.accessor",
             fmt::format("accessor {} holds no indices: it needs unsigned scalars", index));
   }
+  return element_span(document, index, pointer).count;
+}
+
+void read_indices(const GltfDocument& document, int index, std::size_t vertices,
+                  const std::string& pointer, std::span<int> out) {
+  const tinygltf::Accessor& accessor = accessor_at(document, index, pointer);
   const std::size_t width = component_bytes(accessor.componentType);
   // Straight to where they stay, as what they are in the file.
   const std::span indices(reinterpret_cast<std::uint32_t*>(out.data()), out.size());

@@ -15,9 +15,6 @@ namespace morphbake {
 /// @throws BakeError "gltf.accessor" when it does not exist
 std::size_t accessor_count(const GltfDocument& document, int accessor, const std::string& pointer);
 
-/// As accessor_count, where the bytes of so many are there.
-std::size_t present_count(const GltfDocument& document, int accessor, const std::string& pointer);
-
 /// Numbers an element of the accessor has: 1 for SCALAR to 16 for MAT4.
 int accessor_columns(const GltfDocument& document, int accessor, const std::string& pointer);
 
@@ -40,11 +37,16 @@ std::vector<float> read_floats(const GltfDocument& document, int accessor, int c
 Float2s read_float2s(const GltfDocument& document, int accessor, const std::string& pointer);
 Float3s read_float3s(const GltfDocument& document, int accessor, const std::string& pointer);
 
-/// Unsigned SCALARs that name vertices.
+/// Elements of an accessor of unsigned SCALARs, which are all there.
+///
+/// @throws BakeError "gltf.accessor", "gltf.too-large"
+std::size_t index_count(const GltfDocument& document, int accessor, const std::string& pointer);
+
+/// The numbers of vertices in an accessor of indices.
 ///
 /// @param vertices  each is less
-/// @param out       present_count of them
-/// @throws BakeError "gltf.accessor", "gltf.too-large"
+/// @param out       index_count of them
+/// @throws BakeError "gltf.accessor"
 void read_indices(const GltfDocument& document, int accessor, std::size_t vertices,
                   const std::string& pointer, std::span<int> out);
 

@@ -25,14 +25,14 @@ Float3s read_vectors(const GltfDocument& document, const Attributes& attributes,
 void check_counts(const GltfDocument& document, const Attributes& attributes, std::size_t vertices,
                   const std::string& pointer) {
   for (const auto& [name, accessor] : attributes) {
-    check_count(document, accessor, vertices, pointer + "/" + name);
+    check_count(document, accessor, vertices, fmt::format("{}/{}", pointer, name));
   }
 }
 
 std::size_t corner_count(const GltfDocument& document, const tinygltf::Primitive& primitive,
                          std::size_t vertices, const std::string& pointer) {
   if (primitive.indices < 0) return vertices;
-  return present_count(document, primitive.indices, pointer + "/indices");
+  return index_count(document, primitive.indices, pointer + "/indices");
 }
 
 /// The vertices in the order in which triangles take them.

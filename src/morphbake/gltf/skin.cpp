@@ -33,10 +33,32 @@ BindingSet read_set(const GltfDocument& document, const tinygltf::Primitive& pri
     fail_at(document, pointer, "gltf.invalid", fmt::format("{} has no {}", joints, weights));
   }
   for (const std::string& name : {joints, weights}) {
-    check_count(document, attribute(primitive, name), vertices, pointer + "/" + name);
+    check_count(document, attribute(primitive, name), vertices,
+                fmt::format("{}/{}", pointer, name));
   }
   return {read_joints(document, attribute(primitive, joints), pointer + "/" + joints),
           read_floats(document, attribute(primitive, weights), 4, pointer + "/" + weights)};
+}
+
+/// All sets of a primitive.
+std::vector<BindingSet> read_sets(const GltfDocument& document,
+                                  const tinygltf::Primitive& primitive, std::size_t joint_count,
+                                  const std::string& pointer) {
+  const std::size_t vertices =
+      accessor_count(document, attribute(primitive, "POSITION"), pointer + "/POSITION");
+  std::vector<BindingSet> sets;
+  while (attribute(primitive, fmt::format("JOINTS_{}", sets.size())) >= 0) {
+    const int number = static_cast<int>(sets.size());
+    sets.push_back(read_set(document, primitive, number, vertices, pointer));
+    const std::vector<std::uint32_t>& joints = sets.back().joints;
+    const auto bad = std::ranges::find_if(
+        joints, [joint_count](std::uint32_t joint) { return joint >= joint_count; });
+    if (bad == joints.end()) continue;
+    fail_at(document, pointer, "gltf.accessor",
+            fmt::format("vertex {} hangs on joint {}, but the skin has {}",
+                        (bad - joints.begin()) / 4, *bad, joint_count));
+  }
+  return sets;
 }
 
 }  // namespace
@@ -73,13 +95,9 @@ Eigen::Matrix4d bound_to_scene(const std::vector<Eigen::Matrix4d>& joints) {
 
 SkinBinding read_binding(const GltfDocument& document, const tinygltf::Primitive& primitive,
                          std::size_t joint_count, const std::string& pointer) {
-  const auto position = attribute(primitive, "POSITION");
-  const std::size_t vertices = accessor_count(document, position, pointer + "/attributes/POSITION");
-  std::vector<BindingSet> sets;
-  while (attribute(primitive, fmt::format("JOINTS_{}", sets.size())) >= 0) {
-    sets.push_back(read_set(document, primitive, static_cast<int>(sets.size()), vertices,
-                            pointer + "/attributes"));
-  }
+  const std::vector<BindingSet> sets =
+      read_sets(document, primitive, joint_count, pointer + "/attributes");
+  const std::size_t vertices = sets.empty() ? 0 : sets.front().joints.size() / 4;
   SkinBinding binding;
   binding.width = 4 * sets.size();
   binding.joints.reserve(vertices * binding.width);
@@ -88,11 +106,6 @@ SkinBinding read_binding(const GltfDocument& document, const tinygltf::Primitive
     float sum = 0;
     for (const BindingSet& set : sets) {
       for (std::size_t k = 4 * v; k < 4 * v + 4; ++k) {
-        if (set.joints[k] >= joint_count) {
-          fail_at(document, pointer + "/attributes", "gltf.accessor",
-                  fmt::format("vertex {} hangs on joint {}, but the skin has {}", v, set.joints[k],
-                              joint_count));
-        }
         binding.joints.push_back(set.joints[k]);
         binding.weights.push_back(set.weights[k]);
         sum += set.weights[k];
