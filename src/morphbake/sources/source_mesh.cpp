@@ -74,7 +74,8 @@ std::uint64_t hash_of(const Point& point) {
 }
 
 /// Sorts by the upper 32 bits, digit by digit: comparing points instead waits for memory at every
-/// step, which was three quarters of the time of reading a source (pipeline/bench, load).
+/// step, which was three quarters of the time of reading a source (pipeline/bench, "load"). With
+/// Boost's spreadsort in its place a source takes 1.1 to 1.2 times as long.
 void sort_by_hash(std::vector<std::uint64_t>& entries) {
   constexpr unsigned kDigit = 11;
   const auto digit = [](std::uint64_t entry, unsigned shift) {
