@@ -95,6 +95,7 @@ void read_all(const std::string& bytes, const std::filesystem::path& name) {
 }  // namespace
 }  // namespace morphbake::fuzz
 
+// NOLINTNEXTLINE: libFuzzer's name
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace morphbake::fuzz;
   static const FuzzFolder folder;

@@ -20,6 +20,7 @@ void write_sources(const FuzzFolder& folder) {
 }  // namespace
 }  // namespace morphbake::fuzz
 
+// NOLINTNEXTLINE: libFuzzer's name
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace morphbake;
   static const fuzz::FuzzFolder folder;

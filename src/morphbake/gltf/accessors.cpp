@@ -52,10 +52,10 @@ ElementSpan span_of(const GltfDocument& document, const SpanRequest& request,
                     const std::string& pointer) {
   const auto& view = item_at(document, document.model.bufferViews, request.view,
                              pointer + "/bufferView", "bufferView");
-  const auto& buffer = item_at(document, document.model.buffers, view.buffer,
+  const auto& buffer = item_at(document, document.buffers, view.buffer,
                                fmt::format("/bufferViews/{}/buffer", request.view), "buffer");
   const std::size_t stride = view.byteStride > 0 ? view.byteStride : request.element;
-  const std::size_t size = buffer.data.size();
+  const std::size_t size = buffer.size();
   // Each subtraction is guarded by the test before it, so that no sum can overflow.
   const bool view_inside = view.byteOffset <= size && view.byteLength <= size - view.byteOffset;
   const bool starts_inside = view_inside && request.offset <= view.byteLength;
@@ -68,7 +68,8 @@ ElementSpan span_of(const GltfDocument& document, const SpanRequest& request,
                         request.count, request.element, view.byteLength),
             "the file was cut off or its exporter is at fault; export it again");
   }
-  return {buffer.data.data() + view.byteOffset + request.offset, stride, request.count};
+  const auto* first = reinterpret_cast<const unsigned char*>(buffer.data());
+  return {first + view.byteOffset + request.offset, stride, request.count};
 }
 
 ElementSpan element_span(const GltfDocument& document, int index, const std::string& pointer) {

@@ -185,13 +185,13 @@ tinygltf::Model parse_model(GltfDocument& document) {
 }
 
 /// Replaces compressed geometry by the same uncompressed.
-void unpack(GltfDocument& document, std::vector<Bytes>& buffers) {
-  std::vector<std::string_view> texts;
-  for (const Bytes& buffer : buffers) texts.push_back(as_text(buffer));
-  const std::string unpacked = unpacked_glb(document, texts);
-  document.json = parse_source_json(document, json_chunk(document, unpacked));
-  const std::string_view binary = binary_chunk(document, unpacked);
-  buffers.assign(binary.empty() ? 0 : 1, {binary.begin(), binary.end()});
+void unpack(GltfDocument& document) {
+  document.glb = unpacked_glb(document);
+  document.named.clear();
+  document.json = parse_source_json(document, json_chunk(document, document.glb));
+  document.buffers.clear();
+  const std::string_view binary = binary_chunk(document, document.glb);
+  if (!binary.empty()) document.buffers.push_back(binary);
 }
 
 }  // namespace
@@ -208,7 +208,7 @@ GltfFile open_gltf(const fs::path& file) {
   return open_gltf_bytes(read_file(file, kFileSizeLimit), file);
 }
 
-GltfFile open_gltf_bytes(const std::string& bytes, const fs::path& name) {
+GltfFile open_gltf_bytes(std::string bytes, const fs::path& name) {
   auto document = std::make_shared<GltfDocument>();
   document->file = name;
   if (bytes.starts_with("\xEF\xBB\xBF")) {
@@ -223,11 +223,11 @@ GltfFile open_gltf_bytes(const std::string& bytes, const fs::path& name) {
   document->json =
       parse_source_json(*document, is_binary(bytes) ? json_chunk(*document, bytes) : bytes);
   check_document(*document, bytes.size());
-  std::vector<Bytes> buffers = read_buffers(*document, binary_chunk(*document, bytes));
-  if (is_packed(document->json)) unpack(*document, buffers);
+  if (is_binary(bytes)) document->glb = std::move(bytes);
+  read_buffers(*document, binary_chunk(*document, document->glb));
+  if (is_packed(document->json)) unpack(*document);
   document->model = parse_model(*document);
   follow_pointers(*document);
-  for (Bytes& buffer : buffers) document->model.buffers.emplace_back().data = std::move(buffer);
   document->model.images = read_images(*document);
   return document;
 }

@@ -9,16 +9,23 @@
 
 #include <filesystem>
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include "morphbake/gltf/gltf_file.h"
 #include "morphbake/json/json.h"
 
 namespace morphbake {
 
+using Bytes = std::vector<unsigned char>;
+
 struct GltfDocument {
   std::filesystem::path file;
-  Json json;              ///< as it stands in the file: what is kept is kept from here
-  tinygltf::Model model;  ///< the same, typed, with the bytes of all buffers and images
+  Json json;                              ///< as in the file: what is kept is kept from here
+  tinygltf::Model model;                  ///< the same, typed, with images but without buffers
+  std::string glb;                        ///< the file's bytes, or those that it was unpacked to
+  std::vector<Bytes> named;               ///< of the buffers that have a URI
+  std::vector<std::string_view> buffers;  ///< bytes of all of them, in `glb` or `named`
 };
 
 /// @throws BakeError `code` at `pointer` of the glTF's JSON

@@ -122,7 +122,7 @@ Curves weight_curves(const MorphWriting& writing) {
 void check_size(const MorphWriting& writing, const Curves& curves) {
   const GltfDocument& document = writing.document;
   std::size_t bytes = 0, weights = 0;
-  for (const tinygltf::Buffer& buffer : document.model.buffers) bytes += buffer.data.size();
+  for (const std::string_view buffer : document.buffers) bytes += buffer.size();
   const std::size_t limit = std::max(bytes, kFewestWeights);
   for (const auto& [curve, samplers] : curves) {
     const WeightSampler& first = samplers.front();

@@ -24,7 +24,7 @@ GltfFile open_gltf(const std::filesystem::path& file);
 ///
 /// @param name  what messages call it
 /// @throws BakeError as open_gltf
-GltfFile open_gltf_bytes(const std::string& bytes, const std::filesystem::path& name);
+GltfFile open_gltf_bytes(std::string bytes, const std::filesystem::path& name);
 
 /// Where the file was read from.
 std::string file_of(const GltfFile& file);

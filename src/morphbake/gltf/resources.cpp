@@ -65,28 +65,25 @@ bool has_meshopt(const Json& item) {
   return extensions != item.end() && extensions->contains(kMeshopt);
 }
 
-/// @param binary  the chunk that may be this buffer's
-Bytes buffer_bytes(const GltfDocument& document, const Json& buffer, std::string_view binary,
-                   const std::string& pointer) {
-  const auto size = buffer.at("byteLength").get<std::size_t>();
+/// The bytes of a buffer, of which there may be more than its byteLength.
+///
+/// @param binary  the chunk that is this buffer's when it has no URI
+std::string_view buffer_bytes(GltfDocument& document, const Json& buffer, std::string_view binary,
+                              const std::string& pointer) {
   const auto uri = buffer.find("uri");
-  if (uri != buffer.end()) {
-    Bytes bytes =
-        read_uri(document, uri->get_ref<const std::string&>(), {size}, pointer + "/uri").bytes;
-    if (bytes.size() > size) bytes.resize(size);
-    return bytes;
-  }
-  const std::string_view chunk = binary.substr(0, size);
-  const auto* first = reinterpret_cast<const unsigned char*>(chunk.data());
-  return {first, first + chunk.size()};
+  if (uri == buffer.end()) return binary;
+  const auto size = buffer.at("byteLength").get<std::size_t>();
+  Resource resource =
+      read_uri(document, uri->get_ref<const std::string&>(), {size}, pointer + "/uri");
+  return as_text(document.named.emplace_back(std::move(resource.bytes)));
 }
 
 /// Where a buffer has no bytes of its own, all its bufferViews are compressed.
-void check_fallback_views(const GltfDocument& document, const std::vector<Bytes>& buffers) {
+void check_fallback_views(const GltfDocument& document) {
   const auto views = document.json.find("bufferViews");
   for (std::size_t v = 0; views != document.json.end() && v < views->size(); ++v) {
     const Json& view = (*views)[v];
-    const bool is_empty = buffers[view.at("buffer").get<std::size_t>()].empty();
+    const bool is_empty = document.buffers[view.at("buffer").get<std::size_t>()].empty();
     if (!is_empty || view.at("byteLength") == 0 || has_meshopt(view)) continue;
     fail_at(document, fmt::format("/bufferViews/{}", v), "gltf.invalid",
             fmt::format("buffer {} has no bytes, and the bufferView is not compressed",
@@ -97,8 +94,8 @@ void check_fallback_views(const GltfDocument& document, const std::vector<Bytes>
 /// The bytes of a bufferView that check_document saw inside its buffer.
 std::string_view view_bytes(const GltfDocument& document, int index) {
   const tinygltf::BufferView& view = document.model.bufferViews[static_cast<std::size_t>(index)];
-  const Bytes& buffer = document.model.buffers[static_cast<std::size_t>(view.buffer)].data;
-  return as_text(buffer).substr(view.byteOffset, view.byteLength);
+  return document.buffers[static_cast<std::size_t>(view.buffer)].substr(view.byteOffset,
+                                                                        view.byteLength);
 }
 
 }  // namespace
@@ -107,24 +104,23 @@ std::string_view as_text(const Bytes& bytes) {
   return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
 
-std::vector<Bytes> read_buffers(const GltfDocument& document, std::string_view binary) {
-  std::vector<Bytes> buffers;
+void read_buffers(GltfDocument& document, std::string_view binary) {
   const auto found = document.json.find("buffers");
   for (std::size_t b = 0; found != document.json.end() && b < found->size(); ++b) {
     const Json& buffer = (*found)[b];
     const std::string pointer = fmt::format("/buffers/{}", b);
-    buffers.push_back(
-        buffer_bytes(document, buffer, b == 0 ? binary : std::string_view(), pointer));
     const auto size = buffer.at("byteLength").get<std::size_t>();
-    const bool may_be_empty = has_meshopt(buffer) && buffers.back().empty();
-    if (buffers.back().size() == size || may_be_empty) continue;
+    const std::string_view bytes =
+        buffer_bytes(document, buffer, b == 0 ? binary : std::string_view(), pointer)
+            .substr(0, size);
+    document.buffers.push_back(bytes);
+    const bool may_be_empty = has_meshopt(buffer) && bytes.empty();
+    if (bytes.size() == size || may_be_empty) continue;
     fail_at(document, pointer, "gltf.invalid",
-            fmt::format("the buffer has {} bytes where byteLength says {}", buffers.back().size(),
-                        size),
+            fmt::format("the buffer has {} bytes where byteLength says {}", bytes.size(), size),
             "the file was cut off or its exporter is at fault; export it again");
   }
-  check_fallback_views(document, buffers);
-  return buffers;
+  check_fallback_views(document);
 }
 
 std::vector<tinygltf::Image> read_images(const GltfDocument& document) {

@@ -11,17 +11,15 @@
 
 namespace morphbake {
 
-using Bytes = std::vector<unsigned char>;
-
 std::string_view as_text(const Bytes& bytes);
 
-/// The bytes of all buffers: `byteLength` each, or none of one that only stands in for what
+/// Reads all buffers: `byteLength` bytes each, or none of one that only stands in for what
 /// EXT_meshopt_compression holds.
 ///
 /// @param document  its JSON, checked
-/// @param binary    the binary chunk of a .glb
+/// @param binary    the binary chunk of `document.glb`
 /// @throws BakeError "gltf.invalid", "gltf.missing-file"
-std::vector<Bytes> read_buffers(const GltfDocument& document, std::string_view binary);
+void read_buffers(GltfDocument& document, std::string_view binary);
 
 /// The images, of which `mimeType` is what they are. Those that have a URI have bytes of their own.
 ///

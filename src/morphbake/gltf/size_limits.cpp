@@ -43,7 +43,7 @@ struct MeshSize {
 
 std::size_t buffer_bytes(const GltfDocument& document) {
   std::size_t bytes = 0;
-  for (const tinygltf::Buffer& buffer : document.model.buffers) bytes += buffer.data.size();
+  for (const std::string_view buffer : document.buffers) bytes += buffer.size();
   return bytes;
 }
 
@@ -127,7 +127,7 @@ void check_list_sizes(const GltfDocument& document) {
       {length_within(json, "meshes", "primitives"), sizeof(tinygltf::Primitive)},
       {length_of(json, "accessors"), sizeof(tinygltf::Accessor)},
       {length_of(json, "bufferViews"), sizeof(tinygltf::BufferView)},
-      {length_of(json, "buffers"), sizeof(tinygltf::Buffer)},
+      {length_of(json, "buffers"), sizeof(Bytes) + sizeof(std::string_view)},
       {length_of(json, "images"), sizeof(tinygltf::Image)},
       {length_of(json, "materials"), sizeof(tinygltf::Material)},
       {length_of(json, "textures"), sizeof(tinygltf::Texture)},

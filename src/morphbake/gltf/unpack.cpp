@@ -42,7 +42,6 @@ void for_each_primitive(Root& json, const Visit& visit) {
 /// The JSON of what is being unpacked, and all that it is made from.
 struct Unpacking {
   const GltfDocument& document;
-  const std::vector<std::string_view>& buffers;
   GlbDraft draft;
   UnpackBudget budget;
   References references;
@@ -52,7 +51,7 @@ struct Unpacking {
 void leave_bytes(Unpacking& at, const Json& range) {
   if (!at.references.are_all) return;
   const auto buffer = range.at("buffer").get<std::size_t>();
-  const std::size_t size = at.buffers[buffer].size();
+  const std::size_t size = at.document.buffers[buffer].size();
   const std::size_t begin = std::min(range.value("byteOffset", std::size_t{0}), size);
   const std::size_t end = begin + std::min(range.at("byteLength").get<std::size_t>(), size - begin);
   const std::size_t first = at.draft.buffer_begins[buffer];
@@ -64,13 +63,13 @@ std::string_view packed_bytes(const Unpacking& at, const Json& range, const std:
   const auto buffer = range.at("buffer").get<std::size_t>();
   const auto begin = range.value("byteOffset", std::size_t{0});
   const auto length = range.at("byteLength").get<std::size_t>();
-  const std::size_t size = at.buffers[buffer].size();
+  const std::size_t size = at.document.buffers[buffer].size();
   if (begin > size || length > size - begin) {
     fail_at(at.document, pointer, "gltf.invalid",
             fmt::format("bytes {} to {} of buffer {} do not exist; it has {}", begin,
                         begin + length, buffer, size));
   }
-  return at.buffers[buffer].substr(begin, length);
+  return at.document.buffers[buffer].substr(begin, length);
 }
 
 /// Puts bytes at the end of the buffer and lets `view` be them.
@@ -272,13 +271,11 @@ bool is_packed(const Json& json) {
   return found;
 }
 
-std::string unpacked_glb(const GltfDocument& document,
-                         const std::vector<std::string_view>& buffers) {
+std::string unpacked_glb(const GltfDocument& document) {
   std::size_t bytes = 0;
-  for (const std::string_view buffer : buffers) bytes += buffer.size();
+  for (const std::string_view buffer : document.buffers) bytes += buffer.size();
   Unpacking at{document,
-               buffers,
-               join_buffers(without_marks(document.json), buffers),
+               join_buffers(without_marks(document.json), document.buffers),
                UnpackBudget::of_file(bytes),
                {}};
   at.references = references_in(at.draft);

@@ -3,8 +3,6 @@
 // Internal to gltf/: files with compressed geometry, as files without.
 
 #include <string>
-#include <string_view>
-#include <vector>
 
 #include "morphbake/gltf/document.h"
 
@@ -16,9 +14,7 @@ bool is_packed(const Json& json);
 /// The bytes of a .glb that says the same as `document`'s JSON without KHR_draco_mesh_compression
 /// and EXT_meshopt_compression. Images keep their URIs.
 ///
-/// @param buffers  bytes of the file's buffers
 /// @throws BakeError "gltf.meshopt", "gltf.draco", "gltf.invalid", "gltf.too-large"
-std::string unpacked_glb(const GltfDocument& document,
-                         const std::vector<std::string_view>& buffers);
+std::string unpacked_glb(const GltfDocument& document);
 
 }  // namespace morphbake

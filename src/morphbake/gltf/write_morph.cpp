@@ -73,11 +73,7 @@ void append_animation(MorphWriting& writing, const MorphClip& clip) {
 }
 
 GlbDraft draft_of(const GltfDocument& document) {
-  std::vector<std::string_view> buffers;
-  for (const tinygltf::Buffer& buffer : document.model.buffers) {
-    buffers.emplace_back(reinterpret_cast<const char*>(buffer.data.data()), buffer.data.size());
-  }
-  GlbDraft draft = join_buffers(document.json, buffers);
+  GlbDraft draft = join_buffers(document.json, document.buffers);
   draft.shown = document.file;
   return draft;
 }

@@ -75,7 +75,7 @@ TEST_F(Document, OfALongerFileTheBufferIsTheStart) {
   write("a+b.bin", "123456");
   for (const char* uri : {"a+b.bin", "a%2Bb.bin", "data:;base64,MTIzNDU2", "data:,12345"}) {
     const GltfFile file = open(buffer_of(uri, 4));
-    EXPECT_EQ(as_text(file->model.buffers.at(0).data), "1234") << uri;
+    EXPECT_EQ(file->buffers.at(0), "1234") << uri;
   }
 }
 

@@ -102,7 +102,7 @@ std::vector<float> numbers_at(const GltfFile& file, const std::string& pointer) 
   const auto& view = model.bufferViews.at(static_cast<std::size_t>(accessor.bufferView));
   const std::size_t columns = accessor.type == TINYGLTF_TYPE_SCALAR ? 1 : 3;
   std::vector<float> numbers(accessor.count * columns);
-  std::memcpy(numbers.data(), model.buffers.at(0).data.data() + view.byteOffset,
+  std::memcpy(numbers.data(), file->buffers.at(0).data() + view.byteOffset,
               numbers.size() * sizeof(float));
   return numbers;
 }
@@ -301,12 +301,12 @@ TEST(WriteMorph, NothingIsLeftOfASparseAccessor) {
   const GltfFile file = written(source, still_of(1, 7));
   EXPECT_EQ(file->model.bufferViews.size(), 2U);
   EXPECT_EQ(file->model.accessors.size(), 2U);
-  EXPECT_EQ(file->model.buffers.at(0).data.size(), 36U + 24U);
+  EXPECT_EQ(file->buffers.at(0).size(), 36U + 24U);
   EXPECT_THAT(numbers_at(file, kPrimitives + "0/attributes/POSITION"),
               ElementsAre(7, 0, 0, 1, 0, 0, 0, 1, 0));
   const auto& kept = file->model.bufferViews.at(1);
-  const auto* bytes = file->model.buffers.at(0).data.data() + kept.byteOffset;
-  EXPECT_EQ(std::string(bytes, bytes + 23), "01234567012345670123456");
+  const char* bytes = file->buffers.at(0).data() + kept.byteOffset;
+  EXPECT_EQ(std::string_view(bytes, 23), "01234567012345670123456");
 }
 
 TEST(WriteMorph, WhatWasUnusedBeforeStays) {
@@ -315,7 +315,7 @@ TEST(WriteMorph, WhatWasUnusedBeforeStays) {
   const std::size_t bytes = source.draft.binary.size();
   const GltfFile file = written(source, still_of(1, 7));
   EXPECT_EQ(file->model.accessors.size(), 2U);
-  EXPECT_EQ(file->model.buffers.at(0).data.size(), bytes);
+  EXPECT_EQ(file->buffers.at(0).size(), bytes);
 }
 
 TEST(WriteMorph, NothingMovesUnderAnExtensionThatNobodyKnows) {
@@ -325,7 +325,7 @@ TEST(WriteMorph, NothingMovesUnderAnExtensionThatNobodyKnows) {
   const std::size_t bytes = source.draft.binary.size();
   const GltfFile file = written(source, still_of(1, 7));
   EXPECT_EQ(file->model.bufferViews.size(), 3U);
-  EXPECT_GE(file->model.buffers.at(0).data.size(), bytes);
+  EXPECT_GE(file->buffers.at(0).size(), bytes);
 }
 
 /// A posed node of a skin, and another node that has the skin and, if wanted, the mesh.
