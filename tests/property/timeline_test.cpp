@@ -32,7 +32,7 @@ Scene scene() {
   made.regions = fixed_fields({top, side, 1 - top.cwiseMin(side).array()});
   made.recipe.timeline.frames_per_second = 25;
   made.recipe.timeline.duration = 4;
-  made.recipe.timeline.start = {{1}, {0}, {0}};
+  made.recipe.timeline.start = Eigen::Vector3d(1, 0, 0);
   return made;
 }
 
@@ -45,21 +45,22 @@ Track track(const char* name, int region, Shares to, double begin, double end, E
 Scene overlapping_tracks() {
   Scene made = scene();
   made.recipe.timeline.tracks = {
-      track("top", 0, {{0}, {1}, {0}}, 0.5, 2, Ease::Smoothstep),
-      track("side", 1, {{0.2}, {0.3}, {0.5}}, 1, 2.5, Ease::Cubic, 0.8),
-      track("rest", 2, {{0}, {0}, {1}}, 1.5, 3, Ease::Linear),
-      track("flip", 0, {{0.5}, {0}, {0.5}}, 3.2, 3.2, Ease::Step),
-      track("all", -1, {{0}, {1}, {0}}, 3.3, 4, Ease::Smoothstep),
+      track("top", 0, Eigen::Vector3d(0, 1, 0), 0.5, 2, Ease::Smoothstep),
+      track("side", 1, Eigen::Vector3d(0.2, 0.3, 0.5), 1, 2.5, Ease::Cubic, 0.8),
+      track("rest", 2, Eigen::Vector3d(0, 0, 1), 1.5, 3, Ease::Linear),
+      track("flip", 0, Eigen::Vector3d(0.5, 0, 0.5), 3.2, 3.2, Ease::Step),
+      track("all", -1, Eigen::Vector3d(0, 1, 0), 3.3, 4, Ease::Smoothstep),
   };
   return made;
 }
 
 Scene keyed_states() {
   Scene made = scene();
-  made.recipe.states = {
-      {"a", {{1}, {0}, {0}}, {}},
-      {"top", {{1}, {0}, {0}}, {{0, {{0}, {1}, {0}}, 0.7}, {1, {{0}, {0}, {1}}, 1}}},
-      {"mix", {{0.2}, {0.3}, {0.5}}, {}}};
+  made.recipe.states = {{"a", Eigen::Vector3d(1, 0, 0), {}},
+                        {"top",
+                         Eigen::Vector3d(1, 0, 0),
+                         {{0, Eigen::Vector3d(0, 1, 0), 0.7}, {1, Eigen::Vector3d(0, 0, 1), 1}}},
+                        {"mix", Eigen::Vector3d(0.2, 0.3, 0.5), {}}};
   made.recipe.timeline.keys = {{0, 0, Ease::Linear},
                                {1, 1, Ease::Smoothstep},
                                {2, 2, Ease::Step},
@@ -119,9 +120,10 @@ INSTANTIATE_TEST_SUITE_P(Timelines, SeparableTimelines,
 
 TEST(SeparableTimeline, TracksThatFollowOneAnotherNeedNoProducts) {
   Scene made = scene();
-  made.recipe.timeline.tracks = {track("top", 0, {{0}, {1}, {0}}, 0, 1, Ease::Smoothstep),
-                                 track("side", 1, {{0}, {0}, {1}}, 1, 2, Ease::Smoothstep),
-                                 track("rest", 2, {{0}, {1}, {0}}, 2, 3, Ease::Smoothstep)};
+  made.recipe.timeline.tracks = {
+      track("top", 0, Eigen::Vector3d(0, 1, 0), 0, 1, Ease::Smoothstep),
+      track("side", 1, Eigen::Vector3d(0, 0, 1), 1, 2, Ease::Smoothstep),
+      track("rest", 2, Eigen::Vector3d(0, 1, 0), 2, 3, Ease::Smoothstep)};
   const SeparableTimeline separable =
       separate_timeline(made.recipe, made.regions, made.mesh.connectivity.vertex_count);
   EXPECT_EQ(separable.fields.size(), 4U);

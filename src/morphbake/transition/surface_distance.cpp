@@ -152,6 +152,7 @@ bool has_needles(const Mesh& mesh) {
 class HeatSolver {
  public:
   using NT = double;
+  using Index = int;
   using Matrix = CGAL::Eigen_sparse_matrix<double>;
   using Vector = CGAL::Eigen_vector<double>;
 
