@@ -47,7 +47,26 @@ recipe bad '{"spatial": {"expression": "1 / (x - x)"}}'
 refused 2 '#/regions/r/spatial: error: "1 / (x - x)" is'
 recipe bad '{"spatial": {"expression": "sqrt(x) - w"}}'
 refused 2 'w'
-recipe bad '{"rings": {"on": "base", "inner": ["nose", "ear_left", "ear_right"], "outer": ["nose", "tail_tip", "belly"]}}'
+for assignment in 'x = 5' 'y=x' '(x=0)+y'; do
+  recipe bad "{\"spatial\": {\"expression\": \"$assignment\"}}"
+  refused 2 '= would change a variable; == compares'
+done
+recipe bad '{"spatial": {"expression": "x == 0 ? -1 : x >= 1"}}'
+run 0 validate bad.json
+recipe bad '{"spatial": {"expression": "x\u0000 garbage((("}}'
+refused 2 'cannot be read: it has a zero character in it'
+# What goes wrong later has its place as well.
+recipe bad '{"spatial": {"expression": "1 / (t - 1)"}}'
+refused 2 '#/regions/r/spatial: error: "1 / (t - 1)" is'
+recipe bad '{"ball": {"on": "base", "at": {"position": [9, 9, 9]}, "inner": 0.1, "outer": 0.2}}'
+refused 2 '#/regions/r/ball/at: error: (9, 9, 9) is'
+stderr_has '[landmarks.off-surface]'
+recipe bad '{"ball": {"on": "low", "at": "nose", "inner": 0.1, "outer": 0.2}}' '{"sources": {"low": {"band": {"of": "base", "last": 20}}}}'
+refused 2 '#/regions/r/ball/on: error: "low" is made from another source'
+echo 'no picture' >grey.png
+recipe bad '{"mask": {"on": "base", "image": "grey.png"}}'
+refused 2 '#/regions/r/mask/image: error:'
+recipe bad '{"rings": {"on": "base", "inner": ["nose", "ear_left", "ear_right"], "outer": ["nose", "ear_left", "ear_right"]}}'
 refused 2 '#/regions/r/rings/outer: error: the outer loop is no ring: it meets the inner loop at'
 recipe bad '{"mask": {"on": "base", "attribute": "_MASK"}}'
 refused 2 '#/regions/r/mask/attribute: error: the mesh of "base" has no attribute "_MASK" [recipe.mask]'

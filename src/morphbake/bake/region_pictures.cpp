@@ -20,6 +20,7 @@ namespace {
 
 constexpr int kCell = 400;  // pixels of a picture
 constexpr int kColumns = 3;
+constexpr int kMoreWidth = 160;  // of "and 12 more"
 constexpr Ink kText = {{70, 66, 62}, 1};
 
 using Colours = Float3s;  // #V by 3, linear RGB
@@ -33,8 +34,14 @@ constexpr std::array<std::array<std::uint8_t, 3>, 7> kSourceColours = {{{86, 180
                                                                         {0, 90, 160},
                                                                         {150, 60, 20}}};
 
+/// The next seven are the same, darker, and so on.
 std::array<std::uint8_t, 3> source_colour(std::size_t source) {
-  return kSourceColours[source % kSourceColours.size()];
+  std::array<std::uint8_t, 3> colour = kSourceColours[source % kSourceColours.size()];
+  const std::size_t round = source / kSourceColours.size();
+  for (std::uint8_t& channel : colour) {
+    channel = static_cast<std::uint8_t>(channel * std::pow(0.6, static_cast<double>(round)));
+  }
+  return colour;
 }
 
 Eigen::RowVector3f linear(const std::array<std::uint8_t, 3>& srgb) {
@@ -171,7 +178,12 @@ void draw_legend(const MorphableMesh& mesh, Image& sheet) {
   int left = 14;
   for (std::size_t s = 0; s < mesh.names.size(); ++s) {
     const int width = text_size(mesh.names[s], 2).x() + 44;
-    if (left + width > sheet.width) break;
+    const bool is_last = s + 1 == mesh.names.size();
+    if (left + width + (is_last ? 0 : kMoreWidth) > sheet.width) {
+      const std::string more = fmt::format("and {} more", mesh.names.size() - s);
+      draw_text(sheet, more, {left, sheet.height - 27}, 2, kText);
+      break;
+    }
     const auto middle = static_cast<float>(sheet.height - 20);
     draw_ring(sheet, {static_cast<float>(left) + 8, middle}, 0, 8, {source_colour(s), 1});
     draw_text(sheet, mesh.names[s], {left + 22, sheet.height - 27}, 2, kText);

@@ -32,8 +32,8 @@ VertexAttribute read_vertex_attribute(const GltfFile& file, int mesh, const std:
     const std::string pointer = primitive_pointer(mesh, p) + "/attributes/";
     for (const auto& [each, accessor] : primitives[p].attributes) names.insert(each);
     const auto position = primitives[p].attributes.find("POSITION");
-    const auto vertices = static_cast<Eigen::Index>(
-        accessor_count(*file, position->second, pointer + "POSITION"));
+    const auto vertices =
+        static_cast<Eigen::Index>(accessor_count(*file, position->second, pointer + "POSITION"));
     const auto found = primitives[p].attributes.find(name);
     attribute.is_given.push_back(found != primitives[p].attributes.end());
     Rows& rows = blocks.emplace_back(vertices, 0);

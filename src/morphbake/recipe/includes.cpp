@@ -66,8 +66,10 @@ class Reader {
     }
     std::error_code error;
     if (open_.empty() || fs::is_regular_file(file, error)) return;  // of the first one others tell
-    throw BakeError(Problem{Severity::Error, "recipe.missing-file", at,
-                            fmt::format("there is no file {}", shown(Json(file.string()))),
+    const std::string name = shown(Json(file.string()));
+    const std::string message =
+        fs::exists(file, error) ? name + " is no regular file" : "there is no file " + name;
+    throw BakeError(Problem{Severity::Error, "recipe.missing-file", at, message,
                             "names start at the folder of the file that includes"});
   }
 

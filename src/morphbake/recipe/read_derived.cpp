@@ -74,7 +74,8 @@ EditHandle read_handle(Reading& reading, const Json& json, int root, const std::
     complain(reading, moves ? "recipe.conflicting-fields" : "recipe.missing-field", pointer,
              moves ? "\"to\" excludes \"translate\", \"rotate\" and \"scale\""
                    : "where does this handle go?",
-             "give \"to\", or a movement");
+             moves ? "give one of them"
+                   : "give \"to\", or a movement; \"translate\": [0, 0, 0] holds it where it is");
   }
   if (json.contains("to")) {
     handle.to = read_target(reading, json["to"], root, pointer + "/to");

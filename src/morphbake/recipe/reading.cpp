@@ -51,6 +51,14 @@ bool wants_hints(const Reading& reading) { return reading.problems.size() < hint
 void complain_unknown(Reading& reading, const std::vector<std::string>& names,
                       std::string_view kind, const Json& name, const std::string& pointer) {
   const bool hinted = wants_hints(reading);
+  const Json& sources = reading.document.at("sources");
+  if (kind == "source" && sources.contains(name.get<std::string>())) {
+    complain(reading, "recipe.unknown-name", pointer,
+             fmt::format("{} is made from another source: it has no file and no points of its own",
+                         shown(name)),
+             name_hint("", names, "sources with a file"));
+    return;
+  }
   complain(reading, "recipe.unknown-name", pointer,
            fmt::format("there is no {} {}", kind, shown(name)),
            hinted ? name_hint(name.get<std::string>(), names, fmt::format("{}s", kind)) : "");

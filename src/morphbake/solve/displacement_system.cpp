@@ -219,8 +219,8 @@ Goal DisplacementSystem::goal(const Eigen::MatrixXd& change) const {
     const int component = components_.label[static_cast<std::size_t>(v)];
     for (std::size_t s = 0; s < centres_.size(); ++s) {
       for (Eigen::Index axis = 0; axis < 3; ++axis) {
-        goal.start(v, axis) -= change(static_cast<Eigen::Index>(s), v + axis * stride) *
-                               centres_[s](component, axis);
+        goal.start(v, axis) -=
+            change(static_cast<Eigen::Index>(s), v + axis * stride) * centres_[s](component, axis);
       }
     }
   }

@@ -148,7 +148,7 @@ void move_positions(Recipe& recipe, std::size_t s, const Affine3d& map) {
   };
   const int source = static_cast<int>(s);
   for (Landmark& landmark : recipe.sources[s].landmarks) move(landmark.at);
-  visit_places(recipe, [&](Place& place, int on, const std::string&) {
+  visit_places(recipe, [&](Place& place, int on, const std::string&, Whereabouts) {
     if (on == source) move(place);
   });
 }

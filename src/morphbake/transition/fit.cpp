@@ -129,8 +129,10 @@ Positions fitted(const Positions& from, const Positions& to, const Eigen::Vector
 
 void fit_edits(Recipe& recipe, MorphableMesh& mesh, const RegionFields& regions) {
   for (const EditToFit& each : edits_to_fit(recipe)) {
+    Eigen::Index most = 0;  // the source that it is made from, or most of it
+    each.edit->to.rowwise().sum().maxCoeff(&most);
     mesh.geometries.push_back(fitted_shape(recipe, mesh, regions, each));
-    mesh.names.push_back(fmt::format("fitted-{}", mesh.names.size()));
+    mesh.names.push_back(mesh.names[static_cast<std::size_t>(most)] + " fitted");
     add_shape(recipe);
     each.edit->to.setZero();
     each.edit->to.bottomRows(1).setOnes();

@@ -18,8 +18,6 @@
 namespace morphbake {
 namespace {
 
-constexpr std::uintmax_t kLargestImage = std::uintmax_t{1} << 30;  // bytes
-
 /// A mask on its way to K.
 struct MaskCarrier {
   const SourceMesh& source;
@@ -111,6 +109,26 @@ double grey_at(const Image& image, const Eigen::Vector2d& uv) {
          b * ((1 - a) * grey(left, top + 1) + a * grey(left + 1, top + 1));
 }
 
+Image read_mask_image(const MaskCarrier& carrier, const ImageMask& by) {
+  try {
+    return decode_image(read_file(by.file, kMostImageBytes), by.file.string());
+  } catch (const BakeError& error) {
+    const Problem& problem = error.problems().front();
+    fail(carrier, "image", fmt::format("{}: {}", by.file.string(), problem.message), problem.hint);
+  }
+}
+
+/// What is known of each primitive, for each triangle of the file.
+std::vector<bool> of_each_triangle(const SourceMesh& source, const std::vector<bool>& primitives) {
+  std::vector<bool> triangles;
+  for (std::size_t p = 0; p < primitives.size(); ++p) {
+    const Eigen::Index count = source.geometry.primitives[p].triangles.rows();
+    triangles.insert(triangles.end(), static_cast<std::size_t>(count), primitives[p]);
+  }
+  return triangles;
+}
+
+/// Where the mesh has no texture coordinates nothing is marked.
 Eigen::VectorXd image_mask(const MaskCarrier& carrier, const ImageMask& by) {
   const SourceMesh& source = carrier.source;
   const std::string name = fmt::format("TEXCOORD_{}", by.texcoord);
@@ -120,10 +138,13 @@ Eigen::VectorXd image_mask(const MaskCarrier& carrier, const ImageMask& by) {
          fmt::format("the mesh of \"{}\" has no texture coordinates {}", source.name, name),
          name_hint(name, uvs.names, "its attributes"));
   }
-  const Image image = decode_image(read_file(by.file, kLargestImage), by.file.string());
-  Eigen::VectorXd carried(geometry_of(carrier).rows());
+  const Image image = read_mask_image(carrier, by);
+  const std::vector<bool> has_uvs = of_each_triangle(carrier.source, uvs.is_given);
+  Eigen::VectorXd carried = Eigen::VectorXd::Zero(geometry_of(carrier).rows());
   const auto points = closest_points(carrier.surface, geometry_of(carrier));
   for (std::size_t v = 0; v < points.size(); ++v) {
+    const int in_file = carrier.file_triangle[static_cast<std::size_t>(points[v].triangle)];
+    if (!has_uvs[static_cast<std::size_t>(in_file)]) continue;
     Eigen::Vector2d uv = Eigen::Vector2d::Zero();
     for (int k = 0; k < 3; ++k) {
       const int render = carrier.surface.triangles(points[v].triangle, k);
@@ -136,12 +157,7 @@ Eigen::VectorXd image_mask(const MaskCarrier& carrier, const ImageMask& by) {
 
 /// Vertices of the triangles that lie on marked primitives.
 Eigen::VectorXd primitives_mask(const MaskCarrier& carrier, const std::vector<bool>& is_marked) {
-  std::vector<bool> triangle_is_marked;
-  for (std::size_t p = 0; p < is_marked.size(); ++p) {
-    const Eigen::Index count = carrier.source.geometry.primitives[p].triangles.rows();
-    triangle_is_marked.insert(triangle_is_marked.end(), static_cast<std::size_t>(count),
-                              is_marked[p]);
-  }
+  const std::vector<bool> triangle_is_marked = of_each_triangle(carrier.source, is_marked);
   const Triangles& triangles = carrier.mesh.connectivity.triangles;
   const Positions& positions = geometry_of(carrier);
   Positions middles(triangles.rows(), 3);

@@ -5,6 +5,7 @@
 #include <variant>
 #include <vector>
 
+#include "morphbake/diagnostics/problem.h"
 #include "morphbake/mesh/mesh.h"
 #include "morphbake/recipe/region.h"
 
@@ -14,6 +15,7 @@ namespace morphbake {
 struct SpatialField {
   SpatialRegion region;
   std::vector<std::shared_ptr<const Positions>> coordinates;  ///< one a source that counts: #V by 3
+  Location where = {};                                        ///< in the recipe, for messages
 };
 
 /// When a flood reaches each vertex.

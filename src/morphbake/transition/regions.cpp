@@ -215,7 +215,7 @@ class RegionBuilder {
     check_expression(region, spatial);
     RegionField field;
     field.falloff = recipe_.regions[region].falloff;
-    SpatialField form{spatial, {}};
+    SpatialField form{spatial, {}, location_of(recipe_, region, "spatial")};
     const std::vector<int> sources =
         spatial.sources.empty() ? sources_with_a_share(recipe_) : spatial.sources;
     for (const int source : sources) {
@@ -229,15 +229,12 @@ class RegionBuilder {
     }
     field.moves = moves_with_time(spatial);
     // Evaluated once in any case: an expression that gives no number is told before anything moves.
-    try {
-      Eigen::VectorXd d = spatial_distance(form, 0);
-      if (!field.moves) field.form = std::move(d);
-    } catch (const BakeError& error) {
-      std::vector<Problem> problems = error.problems();
-      for (Problem& problem : problems) problem.location = location_of(recipe_, region, "spatial");
-      throw BakeError(std::move(problems));
+    Eigen::VectorXd d = spatial_distance(form, 0);
+    if (field.moves) {
+      field.form = std::move(form);
+    } else {
+      field.form = std::move(d);
     }
-    if (field.moves) field.form = std::move(form);
     return field;
   }
 

@@ -5,6 +5,7 @@
 
 #include <Eigen/Geometry>
 #include <cmath>
+#include <string_view>
 
 #include "morphbake/diagnostics/problem.h"
 #include "morphbake/mesh/measures.h"
@@ -50,6 +51,17 @@ struct Formula {
   Eigen::Vector3d point = Eigen::Vector3d::Zero();
   double time = 0;
 };
+
+/// Whether a variable is set, which muParser allows: = not as a part of ==, !=, <= or >=.
+bool assigns(std::string_view text) {
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    if (text[i] != '=') continue;
+    const bool is_compared = i > 0 && std::string_view("=!<>").find(text[i - 1]) != text.npos;
+    const bool is_equal = i + 1 < text.size() && text[i + 1] == '=';
+    if (!is_compared && !is_equal) return true;
+  }
+  return false;
+}
 
 struct SignedDistance {
   const Positions& points;
@@ -128,18 +140,13 @@ struct SignedDistance {
   }
 };
 
-}  // namespace
-
-Eigen::VectorXd signed_distance(const SpatialRegion& region, const Positions& points, double time) {
-  return std::visit(SignedDistance{points, time}, region.shape);
-}
-
-Eigen::VectorXd spatial_distance(const SpatialField& field, double time) {
+Eigen::VectorXd mean_distance(const SpatialField& field, double time) {
   const bool is_ramp = std::holds_alternative<Ramp>(field.region.shape);
   const double width = is_ramp ? 0 : field.region.width.at(time);
   Eigen::VectorXd sum = Eigen::VectorXd::Zero(field.coordinates.front()->rows());
   for (const auto& coordinates : field.coordinates) {
-    const Eigen::ArrayXd distance = signed_distance(field.region, *coordinates, time);
+    const Eigen::ArrayXd distance =
+        std::visit(SignedDistance{*coordinates, time}, field.region.shape);
     if (is_ramp) {
       sum.array() += distance.max(0).min(1);
     } else if (width > 0) {
@@ -151,7 +158,25 @@ Eigen::VectorXd spatial_distance(const SpatialField& field, double time) {
   return sum / static_cast<double>(field.coordinates.size());
 }
 
+}  // namespace
+
+Eigen::VectorXd signed_distance(const SpatialRegion& region, const Positions& points, double time) {
+  return std::visit(SignedDistance{points, time}, region.shape);
+}
+
+Eigen::VectorXd spatial_distance(const SpatialField& field, double time) {
+  try {
+    return mean_distance(field, time);
+  } catch (const BakeError& error) {
+    std::vector<Problem> problems = error.problems();
+    for (Problem& problem : problems) problem.location = field.where;
+    throw BakeError(std::move(problems));
+  }
+}
+
 std::string expression_error(const std::string& text) {
+  if (text.find('\0') != std::string::npos) return "it has a zero character in it";
+  if (assigns(text)) return "= would change a variable; == compares";
   try {
     Formula(text).value();
     return "";
