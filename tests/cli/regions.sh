@@ -55,6 +55,18 @@ recipe bad '{"spatial": {"expression": "x == 0 ? -1 : x >= 1"}}'
 run 0 validate bad.json
 recipe bad '{"spatial": {"expression": "x\u0000 garbage((("}}'
 refused 2 'cannot be read: it has a zero character in it'
+# Combinations of combinations are evaluated once each, not once for each way to them.
+jq '.regions += ([range(40)] | map({key: "u\(.)", value: {union: (if . == 0 then ["r", "nose"] else ["u\(. - 1)", "u\(. - 1)"] end)}}) | from_entries)
+  | .timeline.tracks[0].region = "u39"' sweep.json >nested.json
+run 0 validate nested.json
+# Each included file's names start at its own folder.
+mkdir -p a b
+cp "$shapes"/creature_base.* a/
+cp "$shapes"/creature_stout.* b/
+echo '{"version": 1, "sources": {"base": "creature_base.glb"}}' >a/part.json
+echo '{"version": 1, "sources": {"stout": "creature_stout.glb"}}' >b/part.json
+jq 'del(.sources) | .include = ["a/part.json", "b/part.json"]' sweep.json >parts.json
+run 0 validate parts.json
 # What goes wrong later has its place as well.
 recipe bad '{"spatial": {"expression": "1 / (t - 1)"}}'
 refused 2 '#/regions/r/spatial: error: "1 / (t - 1)" is'

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "morphbake/derive/band.h"
+#include "morphbake/derive/direction.h"
 #include "morphbake/derive/free_form.h"
 #include "morphbake/derive/mirror.h"
 #include "morphbake/derive/transform.h"
@@ -112,7 +113,9 @@ Positions band_of(const Derivation& from, const BandSource& band, const Observer
 }
 
 Positions mirror_of(const Derivation& from, const MirrorSource& mirror, const Observer& observer) {
-  const MirrorPlane plane{mirror.normal, mirror.offset};
+  // The recipe's offset is a length, however long the normal is.
+  const MirrorPlane plane{unit_direction(mirror.normal, "normal of the mirror plane"),
+                          mirror.offset};
   if (mirror.symmetric < 0) return mirrored(from.shape, plane, observer);
   return mirrored(from.shape, plane,
                   from.mesh.geometries[static_cast<std::size_t>(mirror.symmetric)], observer);

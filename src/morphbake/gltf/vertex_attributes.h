@@ -21,8 +21,7 @@ struct VertexAttribute {
 /// @param name  as glTF writes it: "COLOR_0", "_MASK"
 /// @return      no columns when no primitive has it
 /// @throws BakeError "gltf.accessor" when its rows are not as many as positions, or primitives
-/// differ
-///         in columns; "gltf.not-finite"
+///         differ in columns; "gltf.not-finite"
 VertexAttribute read_vertex_attribute(const GltfFile& file, int mesh, const std::string& name);
 
 /// The material of each primitive, -1 for none.

@@ -118,15 +118,16 @@ class Reader {
     for (const auto& [field, value] : own.items()) {
       const std::string pointer = "/" + field;
       const auto there = whole.document.find(field);
-      const bool are_named = there != whole.document.end() && holds(kByName, field) &&
-                             there->is_object() && value.is_object();
+      const bool are_named = holds(kByName, field) && value.is_object() &&
+                             (there == whole.document.end() || there->is_object());
       if (!are_named) {
         whole.document[field] = value;
         whole.parts.push_back({pointer, file});
         continue;
       }
+      Json& list = there == whole.document.end() ? whole.document[field] = Json::object() : *there;
       for (const auto& [name, entry] : value.items()) {
-        (*there)[name] = entry;
+        list[name] = entry;
         whole.parts.push_back({child_pointer(pointer, name), file});
       }
     }

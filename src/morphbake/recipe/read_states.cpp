@@ -65,14 +65,21 @@ Fit fit_of(const Json& json) {
 }
 
 /// Whether an amount is how far a flood has come.
-bool may_flood(const Recipe& recipe, int region, int depth = 0) {
-  if (region < 0 || depth > static_cast<int>(recipe.regions.size())) return false;
-  const auto& shape = recipe.regions[static_cast<std::size_t>(region)].shape;
-  if (std::holds_alternative<FloodRegion>(shape)) return true;
-  const auto* combined = std::get_if<CombinedRegion>(&shape);
-  return combined != nullptr &&
-         std::any_of(combined->regions.begin(), combined->regions.end(),
-                     [&](int part) { return may_flood(recipe, part, depth + 1); });
+bool may_flood(const Recipe& recipe, int region) {
+  std::vector<bool> seen(recipe.regions.size(), false);
+  std::vector<int> open = {region};
+  while (!open.empty()) {
+    const int next = open.back();
+    open.pop_back();
+    if (next < 0 || seen[static_cast<std::size_t>(next)]) continue;
+    seen[static_cast<std::size_t>(next)] = true;
+    const auto& shape = recipe.regions[static_cast<std::size_t>(next)].shape;
+    if (std::holds_alternative<FloodRegion>(shape)) return true;
+    const auto* combined = std::get_if<CombinedRegion>(&shape);
+    if (combined == nullptr) continue;
+    open.insert(open.end(), combined->regions.begin(), combined->regions.end());
+  }
+  return false;
 }
 
 }  // namespace

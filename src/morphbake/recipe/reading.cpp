@@ -52,7 +52,10 @@ void complain_unknown(Reading& reading, const std::vector<std::string>& names,
                       std::string_view kind, const Json& name, const std::string& pointer) {
   const bool hinted = wants_hints(reading);
   const Json& sources = reading.document.at("sources");
-  if (kind == "source" && sources.contains(name.get<std::string>())) {
+  const auto written = sources.find(name.get<std::string>());
+  const bool is_derived =
+      written != sources.end() && written->is_object() && !written->contains("file");
+  if (kind == "source" && is_derived) {
     complain(reading, "recipe.unknown-name", pointer,
              fmt::format("{} is made from another source: it has no file and no points of its own",
                          shown(name)),

@@ -88,7 +88,7 @@ struct Animated {
   }
 };
 
-/// Behind a plane: normal . p <= offset.
+/// Behind a plane: n . p <= offset, where n is the normal at length 1.
 struct HalfSpace {
   Animated<Eigen::Vector3d> normal;  ///< any length but 0
   Animated<double> offset;
@@ -125,7 +125,7 @@ struct Ramp {
   Animated<Eigen::Vector3d> to;
 };
 
-/// Inside where the expression in x, y, z and t (seconds) is negative.
+/// Inside where the expression in x, y, z and t (seconds) is at most 0.
 struct Expression {
   std::string text;
 };

@@ -214,13 +214,7 @@ void check_near_surface(const SourceMesh& source, const Eigen::Vector3d& positio
   const double reach = kFar * bounding_diagonal(source.positions);
   const auto distances = (source.positions.rowwise() - position.transpose()).rowwise().norm();
   if (!(distances.minCoeff() > reach)) return;  // as a rule; the search below takes longer
-  std::vector<int> proper;
-  for (int f = 0; f < source.triangles.rows(); ++f) {
-    const auto corner = [&](int k) -> Eigen::RowVector3d {
-      return source.positions.row(source.triangles(f, k));
-    };
-    if ((corner(1) - corner(0)).cross(corner(2) - corner(0)).norm() > 0) proper.push_back(f);
-  }
+  const std::vector<int> proper = triangles_with_area(source.positions, source.triangles);
   if (proper.empty()) return;
   const Mesh surface{source.positions, source.triangles(proper, Eigen::all)};
   const Eigen::Vector3d found = position_of(surface, closest_point(surface, position));

@@ -14,6 +14,7 @@
 #include "morphbake/json/json.h"
 #include "morphbake/json/nearest.h"
 #include "morphbake/mesh/closest_point.h"
+#include "morphbake/mesh/measures.h"
 
 namespace morphbake {
 namespace {
@@ -35,17 +36,6 @@ struct MaskCarrier {
                           {carrier.where.file, carrier.where.pointer + "/" + field, 0, 0},
                           message,
                           hint});
-}
-
-void keep_proper_triangles(MaskCarrier& carrier) {
-  const Positions& positions = carrier.source.positions;
-  const Triangles& triangles = carrier.source.triangles;
-  for (int f = 0; f < triangles.rows(); ++f) {
-    const auto corner = [&](int k) -> Eigen::RowVector3d { return positions.row(triangles(f, k)); };
-    const bool has_area = (corner(1) - corner(0)).cross(corner(2) - corner(0)).norm() > 0;
-    if (has_area) carrier.file_triangle.push_back(f);
-  }
-  carrier.surface = {positions, triangles(carrier.file_triangle, Eigen::all)};
 }
 
 const Positions& geometry_of(const MaskCarrier& carrier) {
@@ -208,7 +198,10 @@ Eigen::VectorXd primitive_mask(const MaskCarrier& carrier, const PrimitiveMask& 
 }
 
 Eigen::VectorXd values_of(MaskCarrier carrier) {
-  keep_proper_triangles(carrier);
+  const Positions& positions = carrier.source.positions;
+  const Triangles& triangles = carrier.source.triangles;
+  carrier.file_triangle = triangles_with_area(positions, triangles);
+  carrier.surface = {positions, triangles(carrier.file_triangle, Eigen::all)};
   const auto& by = carrier.mask.by;
   Eigen::VectorXd values;
   if (const auto* attribute = std::get_if<AttributeMask>(&by)) {

@@ -16,8 +16,7 @@ namespace morphbake {
 /// @param originals  one a source, in the scene where K's geometries are
 /// @return           one a region: #V, each in [0, 1]; no rows for regions of another kind
 /// @throws BakeError "recipe.mask" where a file has no such attribute, channel, material, primitive
-/// or
-///         texture coordinates; "image.unreadable", "image.too-large", "gltf.accessor"
+///         or texture coordinates, or the image cannot be read; "gltf.accessor"
 std::vector<Eigen::VectorXd> mask_values(const MorphableMesh& mesh, const Recipe& recipe,
                                          const std::vector<SourceMesh>& originals);
 

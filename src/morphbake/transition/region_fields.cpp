@@ -2,6 +2,7 @@
 
 #include <cassert>
 #include <cmath>
+#include <map>
 #include <utility>
 
 #include "morphbake/transition/spatial.h"
@@ -18,12 +19,41 @@ Eigen::VectorXd flood_distance(const FloodField& flood, double amount) {
   return 1 - ((front - flood.order.array()) / flood.softness).max(0).min(1);
 }
 
-Eigen::VectorXd combined_distance(const RegionFields& fields, const CombinedRegion& combined,
-                                  const RegionMoment& moment) {
+/// The regions of one moment. Each combination is evaluated once: many others may be made of it.
+class Evaluation {
+ public:
+  Evaluation(const RegionFields& fields, const RegionMoment& moment)
+      : fields_(fields), moment_(moment) {}
+
+  const Eigen::VectorXd& distance(int region) {
+    const RegionField& field = fields_[static_cast<std::size_t>(region)];
+    if (const auto* fixed = std::get_if<Eigen::VectorXd>(&field.form)) return *fixed;
+    const auto known = known_.find(region);
+    if (known != known_.end()) return known->second;
+    Eigen::VectorXd d;
+    if (const auto* spatial = std::get_if<SpatialField>(&field.form)) {
+      d = spatial_distance(*spatial, moment_.time);
+    } else if (const auto* flood = std::get_if<FloodField>(&field.form)) {
+      d = flood_distance(*flood, moment_.amount);
+    } else {
+      d = combined(std::get<CombinedRegion>(field.form));
+    }
+    return known_[region] = bent_by(field.falloff, std::move(d));
+  }
+
+ private:
+  Eigen::VectorXd combined(const CombinedRegion& combined);
+
+  const RegionFields& fields_;
+  const RegionMoment& moment_;
+  std::map<int, Eigen::VectorXd> known_;
+};
+
+Eigen::VectorXd Evaluation::combined(const CombinedRegion& combined) {
   using Kind = CombinedRegion::Kind;
-  Eigen::VectorXd d = distance_at(fields, combined.regions.front(), moment);
+  Eigen::VectorXd d = distance(combined.regions.front());
   for (std::size_t i = 1; i < combined.regions.size(); ++i) {
-    const Eigen::VectorXd other = distance_at(fields, combined.regions[i], moment);
+    const Eigen::VectorXd& other = distance(combined.regions[i]);
     switch (combined.kind) {
       case Kind::Union:
       case Kind::RestOf:
@@ -64,16 +94,7 @@ RegionFields fixed_fields(std::vector<Eigen::VectorXd> distances) {
 }
 
 Eigen::VectorXd distance_at(const RegionFields& fields, int region, const RegionMoment& moment) {
-  const RegionField& field = fields[static_cast<std::size_t>(region)];
-  if (const auto* fixed = std::get_if<Eigen::VectorXd>(&field.form)) return *fixed;
-  if (const auto* spatial = std::get_if<SpatialField>(&field.form)) {
-    return bent_by(field.falloff, spatial_distance(*spatial, moment.time));
-  }
-  if (const auto* flood = std::get_if<FloodField>(&field.form)) {
-    return bent_by(field.falloff, flood_distance(*flood, moment.amount));
-  }
-  return bent_by(field.falloff,
-                 combined_distance(fields, std::get<CombinedRegion>(field.form), moment));
+  return Evaluation(fields, moment).distance(region);
 }
 
 const Eigen::VectorXd& fixed_distance(const RegionFields& fields, int region) {

@@ -168,30 +168,29 @@ class RegionBuilder {
       fixed.push_back(
           {nearest_corner(survey(scattered.source).mesh, at[i]), scattered.values[i].second});
     }
-    check_reached(region, "scattered", fixed);
+    check_reached(region, scattered.source, fixed);
     return 1 - harmonic_values(mesh_.connectivity, fixed).array().max(0).min(1);
   }
 
   /// Each piece of the surface needs a value of its own.
-  void check_reached(std::size_t region, const std::string& kind,
-                     const std::vector<FixedValue>& fixed) {
+  void check_reached(std::size_t region, int source, const std::vector<FixedValue>& fixed) {
     const Components components = connected_components(one_rings(mesh_.connectivity));
     std::vector<bool> reached(static_cast<std::size_t>(components.count), false);
     for (const FixedValue& each : fixed) {
       reached[static_cast<std::size_t>(components.label[static_cast<std::size_t>(each.vertex)])] =
           true;
     }
-    complain_unreached(region, kind, components, reached);
+    complain_unreached(region, "scattered", source, components, reached);
   }
 
-  void complain_unreached(std::size_t region, const std::string& kind, const Components& components,
-                          const std::vector<bool>& reached) {
+  void complain_unreached(std::size_t region, const std::string& kind, int source,
+                          const Components& components, const std::vector<bool>& reached) {
     const auto missed = std::find(reached.begin(), reached.end(), false);
     if (missed == reached.end()) return;
     const auto label = static_cast<int>(missed - reached.begin());
     const auto vertex = std::find(components.label.begin(), components.label.end(), label) -
                         components.label.begin();
-    const Eigen::RowVector3d at = mesh_.geometries.front().row(vertex);
+    const Eigen::RowVector3d at = mesh_.geometries[static_cast<std::size_t>(source)].row(vertex);
     throw BakeError(Problem{
         Severity::Error, "recipe.unreached", location_of(recipe_, region, kind),
         fmt::format("the surface has {} pieces, and no point of this region lies on the one "
@@ -246,7 +245,7 @@ class RegionBuilder {
       if (std::isfinite(r(v))) continue;
       reached[static_cast<std::size_t>(components.label[static_cast<std::size_t>(v)])] = false;
     }
-    complain_unreached(region, "flood", components, reached);
+    complain_unreached(region, "flood", flood.source, components, reached);
     return {flood_order(r, survey(flood.source).mesh.positions, flood.softness), flood.softness};
   }
 

@@ -11,7 +11,7 @@ namespace morphbake {
 /// All regions of a recipe on K.
 ///
 /// Each is measured on the geometry of the source that it names and carried to K vertex by vertex.
-/// Geodesic distances share one factorisation a source.
+/// Geodesic distances share a factorisation a source and piece of its surface.
 /// @param recipe  whose places are positions (see with_positions)
 /// @param masks   one a region: what mask_values gave, or no rows
 /// @throws BakeError "transition.distance-failed", "recipe.ring", "recipe.unreached",

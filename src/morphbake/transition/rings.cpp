@@ -142,7 +142,9 @@ class RingFinder {
         const auto j = static_cast<std::size_t>(neighbour);
         const double sum =
             so_far + (mesh_.positions.row(neighbour) - mesh_.positions.row(vertex)).norm();
-        const bool is_tie = sum == length[j] && neighbour != from && is_before(vertex, before[j]);
+        // A way grows at each step, or ways between vertices at one place would lead to each other.
+        const bool is_tie =
+            sum == length[j] && sum > so_far && before[j] >= 0 && is_before(vertex, before[j]);
         if (sum < length[j]) front.emplace(sum, neighbour);
         if (sum < length[j] || is_tie) before[j] = vertex;
         length[j] = std::min(length[j], sum);

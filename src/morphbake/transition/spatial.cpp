@@ -4,6 +4,7 @@
 #include <muParser.h>
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 #include <string_view>
 
@@ -18,7 +19,11 @@ namespace {
 }
 
 Eigen::Vector3d direction(const Animated<Eigen::Vector3d>& vector, double time) {
-  const Eigen::Vector3d v = vector.at(time);
+  double largest = 0;  // of the keys, whose lengths do not matter
+  for (const Eigen::Vector3d& key : vector.values) {
+    largest = std::max(largest, key.cwiseAbs().maxCoeff());
+  }
+  const Eigen::Vector3d v = vector.at(time) / largest;
   if (!(v.norm() > 1e-12)) {
     fail(fmt::format("the direction is (0, 0, 0) at {:.4g} s", time),
          "between two opposite keys give a third one that is turned sideways");
