@@ -19,6 +19,7 @@ set(OWNERS
     "^(suitesparse|Spectra)/=linear"
     "^OpenImageIO/=images"
     "^embree[34]/=preview"
+    "^muParser\\.h$=transition"
     "^meshoptimizer\\.h$=gltf export"
     "^draco/=gltf"
     "^CLI/=cli"

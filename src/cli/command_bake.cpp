@@ -77,7 +77,8 @@ std::vector<std::string> summary_lines(const BakeReport& report) {
 /// Fails now rather than after the bake when the report cannot be written, or would replace what
 /// the bake reads or writes.
 void check_report(const Recipe& recipe, const std::filesystem::path& file) {
-  std::vector<std::filesystem::path> taken = {recipe.file};
+  std::vector<std::filesystem::path> taken;
+  for (const RecipePart& part : recipe.parts) taken.push_back(part.file);
   for (const SourceRef& source : recipe.sources) taken.push_back(source.file);
   for (const Output& output : recipe.outputs) taken.push_back(output.file);
   for (const std::filesystem::path& other : taken) {
@@ -94,7 +95,8 @@ void check_report(const Recipe& recipe, const std::filesystem::path& file) {
 
 void run_bake(const Arguments& arguments, Terminal& terminal) {
   Recipe recipe = read_recipe(arguments.recipe);
-  BakeOptions options = read_options(recipe.options, recipe.file.string(), arguments.settings);
+  BakeOptions options =
+      read_options(recipe.options, location_in(recipe, "/options").file, arguments.settings);
   options.threads = arguments.threads;
   if (!arguments.output_dir.empty()) {
     recipe = redirect_outputs(std::move(recipe), arguments.output_dir);

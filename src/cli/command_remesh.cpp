@@ -49,7 +49,7 @@ std::vector<std::string> summary_lines(const RemeshReport& report) {
 /// Fails now rather than after the work when the report would replace a file of the recipe.
 void check_report(const Recipe& recipe, const Arguments& arguments, SheetRequest sheet) {
   std::vector<std::filesystem::path> taken = remeshed_files(recipe, arguments.output_dir, sheet);
-  taken.push_back(recipe.file);
+  for (const RecipePart& part : recipe.parts) taken.push_back(part.file);
   for (const SourceRef& source : recipe.sources) taken.push_back(source.file);
   for (const std::filesystem::path& other : taken) {
     std::error_code error;
@@ -65,7 +65,8 @@ void check_report(const Recipe& recipe, const Arguments& arguments, SheetRequest
 
 void run_remesh(const Arguments& arguments, Terminal& terminal) {
   const Recipe recipe = read_recipe(arguments.recipe);
-  BakeOptions options = read_options(recipe.options, recipe.file.string(), arguments.settings);
+  BakeOptions options =
+      read_options(recipe.options, location_in(recipe, "/options").file, arguments.settings);
   options.threads = arguments.threads;
   const SheetRequest sheet = arguments.sheet == "none" ? SheetRequest::None : SheetRequest::Make;
   if (!arguments.report.empty()) check_report(recipe, arguments, sheet);

@@ -17,7 +17,8 @@ Command add_validate(CLI::App& program) {
   parser->footer("\nExample: morphbake validate recipe.json --log json");
   return {parser, [recipe_file](Terminal& terminal) {
             const Recipe recipe = read_recipe(*recipe_file);
-            const BakeOptions options = read_options(recipe.options, recipe.file.string(), {});
+            const BakeOptions options =
+                read_options(recipe.options, location_in(recipe, "/options").file, {});
             validate(recipe, options, terminal.observer());
             terminal.result(fmt::format("{}: valid ({} sources, {} regions, {} outputs)",
                                         recipe_file->string(), recipe.sources.size(),

@@ -9,7 +9,7 @@ namespace {
 
 using ModuleExitCode = std::pair<std::string_view, ExitCode>;
 
-constexpr std::array<ModuleExitCode, 23> kExitCodes = {{
+constexpr std::array<ModuleExitCode, 24> kExitCodes = {{
     {"usage", ExitCode::Recipe},
     {"options", ExitCode::Recipe},
     {"landmarks", ExitCode::Recipe},
@@ -17,6 +17,7 @@ constexpr std::array<ModuleExitCode, 23> kExitCodes = {{
     {"recipe", ExitCode::Recipe},
     {"schema", ExitCode::Recipe},
     {"files", ExitCode::Recipe},
+    {"derive", ExitCode::Recipe},
     {"gltf", ExitCode::SourceMesh},
     {"mesh", ExitCode::SourceMesh},
     {"sources", ExitCode::SourceMesh},

@@ -1,13 +1,17 @@
-// bench [JSON [MARKDOWN]]: measures everything; prints a table, and writes it to files.
+// bench [NAME...] [> TABLE]: measures everything, or what is named: solve, regions, eigenvectors,
+// load, export, preview. With --json FILE first it writes the figures there as well.
 
 #include <fmt/core.h>
 #include <malloc.h>
 
+#include <algorithm>
 #include <climits>
 #include <cmath>
 #include <cstdio>
 #include <fstream>
+#include <functional>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "bench/timing.h"
 
@@ -45,6 +49,12 @@ std::string to_json(const Figures& figures) {
   return list.dump(1) + "\n";
 }
 
+std::function<void(Figures&)> at_each_size(void (*measure)(int, Figures&)) {
+  return [measure](Figures& figures) {
+    for (const int vertices : {10000, 100000, 500000}) measure(vertices, figures);
+  };
+}
+
 /// Keeps freed memory in the process. Else page faults, a third of the time of reading a source,
 /// are timed with whatever happens to need new memory when glibc has given some back.
 void keep_memory() {
@@ -58,16 +68,29 @@ void keep_memory() {
 int main(int argc, char** argv) {
   using namespace morphbake::bench;
   keep_memory();
-  Figures figures;
-  for (const int vertices : {10000, 100000, 500000}) {
-    std::fprintf(stderr, "bench: %d vertices\n", vertices);
-    bench_solvers(vertices, figures);
-    bench_regions(vertices, figures);
+  std::vector<std::string> wanted(argv + 1, argv + argc);
+  std::string json;
+  if (wanted.size() >= 2 && wanted[0] == "--json") {
+    json = wanted[1];
+    wanted.erase(wanted.begin(), wanted.begin() + 2);
   }
-  bench_load(500000, figures);
-  bench_export(100000, figures);
-  bench_preview(100000, figures);
+  const std::vector<std::pair<std::string, std::function<void(Figures&)>>> all = {
+      {"solve", at_each_size(bench_solvers)},
+      {"regions", at_each_size(bench_regions)},
+      {"eigenvectors", [](Figures& figures) { bench_eigenvectors(50000, figures); }},
+      {"load", [](Figures& figures) { bench_load(500000, figures); }},
+      {"export", [](Figures& figures) { bench_export(100000, figures); }},
+      {"preview", [](Figures& figures) { bench_preview(100000, figures); }},
+  };
+  Figures figures;
+  for (const auto& [name, measure] : all) {
+    const bool is_wanted =
+        wanted.empty() || std::find(wanted.begin(), wanted.end(), name) != wanted.end();
+    if (!is_wanted) continue;
+    std::fprintf(stderr, "bench: %s\n", name.c_str());
+    measure(figures);
+  }
   std::fputs(to_markdown(figures).c_str(), stdout);
-  if (argc > 1) std::ofstream(argv[1]) << to_json(figures);
-  return 0;
+  if (!json.empty()) std::ofstream(json) << to_json(figures);
+  return figures.empty() ? 2 : 0;
 }

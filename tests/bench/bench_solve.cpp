@@ -46,7 +46,7 @@ struct Scene {
   }
 
   DisplacementSystem system(HoldRule rule) const {
-    const SeparableTimeline middle{{}, {{"", change_at(0.5), {}}}};
+    const SeparableTimeline middle{Shares(0, 1), {{"", change_at(0.5), {}}}};
     return {mesh,
             choose_constraints(mesh, connected_components(one_rings(mesh.connectivity)),
                                untouched_vertices(middle), {rule, {}, {}, -1}),

@@ -1,4 +1,4 @@
-// What else a bake does: regions, export, previews.
+// What else a bake does: export, previews.
 
 #include <fmt/core.h>
 
@@ -9,7 +9,6 @@
 #include "morphbake/files/files.h"
 #include "morphbake/gltf/write_morph.h"
 #include "morphbake/preview/turntable.h"
-#include "morphbake/transition/surface_distance.h"
 #include "shapes/shapes.h"
 
 namespace morphbake::bench {
@@ -80,23 +79,11 @@ MeshMorph morph_of(const Mesh& mesh, int targets) {
     morph.primitives[0].target_normals.push_back(normals * 0.1F);
     morph.target_names.push_back(fmt::format("t{}", k));
   }
-  morph.animation_name = "bench";
-  morph.key_times = {0, 1};
-  morph.key_weights = Eigen::MatrixXf::Identity(2, targets);
+  morph.clips = {{"bench", {0, 1}, Eigen::MatrixXf::Identity(2, targets)}};
   return morph;
 }
 
 }  // namespace
-
-void bench_regions(int vertices, Figures& figures) {
-  const std::string group = fmt::format("regions, {} vertices", shown_count(vertices));
-  const Mesh mesh = torus_of(vertices);
-  const SurfacePoint centre{0, {0.3, 0.3, 0.4}};
-  const Pair pair = time_pair(
-      1, [&] { edge_distances(mesh, centre); }, [&] { geodesic_distances(mesh, {centre}); });
-  figures.push_back({group, "Dijkstra", pair.first * 1e3, "ms", ""});
-  figures.push_back({group, "geodesic", pair.second * 1e3, "ms", ""});
-}
 
 void bench_export(int vertices, Figures& figures) {
   const std::string group = fmt::format("export, {} vertices, 8 targets", shown_count(vertices));

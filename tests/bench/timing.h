@@ -39,6 +39,7 @@ std::string shown_count(int count);
 
 void bench_solvers(int vertices, Figures& figures);
 void bench_regions(int vertices, Figures& figures);
+void bench_eigenvectors(int vertices, Figures& figures);
 void bench_load(int vertices, Figures& figures);
 void bench_export(int vertices, Figures& figures);
 void bench_preview(int vertices, Figures& figures);

@@ -52,7 +52,7 @@ run 0 bake anchor.json -o anchor
 stderr_has "edge lengths out of its neighbours"
 stderr_has "[solve.anchor-spike]"
 
-recipe tracks '{"outputs": [{"file": "nose.glb"}]}'
+recipe tracks '{"outputs": [{"file": "nose.glb", "targets": "tracks"}]}'
 run 2 bake tracks.json -o out --set /solve/every_frame=true
 stderr_has "[recipe.needs-frames]"
 recipe strict '{"outputs": [{"file": "nose.glb", "max_normal_error": {"percentile_99": 0.1}}]}'

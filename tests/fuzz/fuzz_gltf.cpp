@@ -52,9 +52,7 @@ MeshMorph still_morph(const SourceGeometry& source) {
   morph.replaces_base = !source.is_at_rest;
   morph.drops_skin = source.is_posed;
   morph.target_names = {"still"};
-  morph.animation_name = "still";
-  morph.key_times = {0, 1};
-  morph.key_weights = Eigen::MatrixXf::Zero(2, 1);
+  morph.clips = {{"still", {0, 1}, Eigen::MatrixXf::Zero(2, 1)}};
   return morph;
 }
 

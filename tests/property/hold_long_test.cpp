@@ -145,7 +145,7 @@ class QuadrupleSolution {
 
 TEST(HoldAt100k, IsAccurateTo1e9OfTheDiagonal) {
   const Half half(224);
-  const SeparableTimeline timeline{{}, {{"", half.change, {}}}};
+  const SeparableTimeline timeline{Shares(0, 1), {{"", half.change, {}}}};
   const Constraints constraints = choose_constraints(half.mesh, connected_components(half.rings),
                                                      untouched_vertices(timeline), {});
   const DisplacementSystem system(half.mesh, constraints, RightHandSide::Edge);

@@ -26,7 +26,7 @@ struct Cap {
       const double share = std::clamp((sphere.positions(v, 1) - 0.1) / 0.4, 0.0, 1.0);
       change.col(v) << -share, share;
     }
-    timeline = {{1, 0},
+    timeline = {Eigen::Vector2d(1, 0),
                 {{"start", Eigen::MatrixXd::Zero(2, change.cols()), {}}, {"cap", change, {0}}}};
   }
 

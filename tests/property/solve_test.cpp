@@ -42,7 +42,7 @@ Eigen::MatrixXd change_to(const Eigen::MatrixXd& T) {
 
 Constraints constraints_for(const MorphableMesh& mesh, const Eigen::MatrixXd& change,
                             const ConstraintRequest& request) {
-  const SeparableTimeline timeline{{}, {{"", change, {}}}};
+  const SeparableTimeline timeline{Shares(0, 1), {{"", change, {}}}};
   return choose_constraints(mesh, components_of(mesh), untouched_vertices(timeline), request);
 }
 

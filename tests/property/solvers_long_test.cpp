@@ -66,7 +66,7 @@ struct Sweep {
     if (anchor >= 0) {
       request.gauge_weights = Eigen::VectorXd::Unit(mesh.connectivity.vertex_count, anchor);
     }
-    const SeparableTimeline middle{{}, {{"", change_at(0.3), {}}}};
+    const SeparableTimeline middle{Shares(0, 1), {{"", change_at(0.3), {}}}};
     return {mesh,
             choose_constraints(mesh, connected_components(one_rings(mesh.connectivity)),
                                untouched_vertices(middle), request),
@@ -241,7 +241,7 @@ TEST_P(RealMeshes, HeldSoftRingsDoNotCrease) {
     const double share = soft((0.3 - r) / 0.25);
     change.col(v) << -share, share;
   }
-  const SeparableTimeline timeline{{}, {{"", change, {}}}};
+  const SeparableTimeline timeline{Shares(0, 1), {{"", change, {}}}};
   const Observer nobody;
   std::vector<std::vector<double>> angles;
   std::vector<bool> held;

@@ -13,7 +13,7 @@ namespace {
 struct Scene {
   MorphableMesh mesh;
   Recipe recipe;
-  std::vector<Eigen::VectorXd> regions;
+  RegionFields regions;
 };
 
 /// d by height: 0 above `inner`, 1 below `outer`.
@@ -27,37 +27,40 @@ Scene scene() {
                                               test::bent(mesh.positions, 0.4, 2)}),
              {},
              {}};
-  made.regions = {band(mesh.positions, 1, 0.6, 0.1), band(mesh.positions, 0, 0.5, -0.2)};
-  made.regions.push_back(1 - made.regions[0].cwiseMin(made.regions[1]).array());
+  const Eigen::VectorXd top = band(mesh.positions, 1, 0.6, 0.1);
+  const Eigen::VectorXd side = band(mesh.positions, 0, 0.5, -0.2);
+  made.regions = fixed_fields({top, side, 1 - top.cwiseMin(side).array()});
   made.recipe.timeline.frames_per_second = 25;
   made.recipe.timeline.duration = 4;
-  made.recipe.timeline.start = {1, 0, 0};
+  made.recipe.timeline.start = Eigen::Vector3d(1, 0, 0);
   return made;
 }
 
 // NOLINTNEXTLINE(readability-function-size): reads like a row of a table
 Track track(const char* name, int region, Shares to, double begin, double end, Ease ease,
             double amount = 1) {
-  return {name, {region, std::move(to), amount}, begin, end, ease};
+  return {name, {region, std::move(to), amount, Fit::None}, begin, end, ease};
 }
 
 Scene overlapping_tracks() {
   Scene made = scene();
   made.recipe.timeline.tracks = {
-      track("top", 0, {0, 1, 0}, 0.5, 2, Ease::Smoothstep),
-      track("side", 1, {0.2, 0.3, 0.5}, 1, 2.5, Ease::Cubic, 0.8),
-      track("rest", 2, {0, 0, 1}, 1.5, 3, Ease::Linear),
-      track("flip", 0, {0.5, 0, 0.5}, 3.2, 3.2, Ease::Step),
-      track("all", -1, {0, 1, 0}, 3.3, 4, Ease::Smoothstep),
+      track("top", 0, Eigen::Vector3d(0, 1, 0), 0.5, 2, Ease::Smoothstep),
+      track("side", 1, Eigen::Vector3d(0.2, 0.3, 0.5), 1, 2.5, Ease::Cubic, 0.8),
+      track("rest", 2, Eigen::Vector3d(0, 0, 1), 1.5, 3, Ease::Linear),
+      track("flip", 0, Eigen::Vector3d(0.5, 0, 0.5), 3.2, 3.2, Ease::Step),
+      track("all", -1, Eigen::Vector3d(0, 1, 0), 3.3, 4, Ease::Smoothstep),
   };
   return made;
 }
 
 Scene keyed_states() {
   Scene made = scene();
-  made.recipe.states = {{"a", {1, 0, 0}, {}},
-                        {"top", {1, 0, 0}, {{0, {0, 1, 0}, 0.7}, {1, {0, 0, 1}, 1}}},
-                        {"mix", {0.2, 0.3, 0.5}, {}}};
+  made.recipe.states = {{"a", Eigen::Vector3d(1, 0, 0), {}},
+                        {"top",
+                         Eigen::Vector3d(1, 0, 0),
+                         {{0, Eigen::Vector3d(0, 1, 0), 0.7}, {1, Eigen::Vector3d(0, 0, 1), 1}}},
+                        {"mix", Eigen::Vector3d(0.2, 0.3, 0.5), {}}};
   made.recipe.timeline.keys = {{0, 0, Ease::Linear},
                                {1, 1, Ease::Smoothstep},
                                {2, 2, Ease::Step},
@@ -117,9 +120,10 @@ INSTANTIATE_TEST_SUITE_P(Timelines, SeparableTimelines,
 
 TEST(SeparableTimeline, TracksThatFollowOneAnotherNeedNoProducts) {
   Scene made = scene();
-  made.recipe.timeline.tracks = {track("top", 0, {0, 1, 0}, 0, 1, Ease::Smoothstep),
-                                 track("side", 1, {0, 0, 1}, 1, 2, Ease::Smoothstep),
-                                 track("rest", 2, {0, 1, 0}, 2, 3, Ease::Smoothstep)};
+  made.recipe.timeline.tracks = {
+      track("top", 0, Eigen::Vector3d(0, 1, 0), 0, 1, Ease::Smoothstep),
+      track("side", 1, Eigen::Vector3d(0, 0, 1), 1, 2, Ease::Smoothstep),
+      track("rest", 2, Eigen::Vector3d(0, 1, 0), 2, 3, Ease::Smoothstep)};
   const SeparableTimeline separable =
       separate_timeline(made.recipe, made.regions, made.mesh.connectivity.vertex_count);
   EXPECT_EQ(separable.fields.size(), 4U);

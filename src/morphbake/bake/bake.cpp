@@ -1,11 +1,15 @@
 #include "morphbake/bake/bake.h"
 
 #include "morphbake/bake/connect_sources.h"
+#include "morphbake/bake/derive_sources.h"
 #include "morphbake/bake/load_sources.h"
 #include "morphbake/bake/outputs.h"
 #include "morphbake/bake/previews.h"
+#include "morphbake/bake/region_pictures.h"
 #include "morphbake/bake/share_sources.h"
 #include "morphbake/bake/stage_clock.h"
+#include "morphbake/transition/fit.h"
+#include "morphbake/transition/masks.h"
 #include "morphbake/transition/regions.h"
 
 namespace morphbake {
@@ -13,8 +17,34 @@ namespace {
 
 std::filesystem::path stem_of(std::filesystem::path file) { return file.replace_extension(); }
 
+/// The recipe's regions, and the shapes that are made from its sources with their help.
+RegionFields shape_sources(Recipe& recipe, const ConnectedSources& connected, MorphableMesh& mesh,
+                           const Observer& observer) {
+  const bool is_new = !connected.originals.empty();  // masks are read from the files as loaded
+  RegionFields regions = region_fields(
+      mesh, recipe, mask_values(mesh, recipe, is_new ? connected.originals : connected.sources));
+  derive_sources(recipe, regions, mesh, observer);
+  fit_edits(recipe, mesh, regions);
+  return regions;
+}
+
 std::filesystem::path with_ending(const std::filesystem::path& file, const char* ending) {
   return stem_of(file) += ending;
+}
+
+/// Stages the pictures that explain the recipe, beside the first output.
+void stage_maps(const SolvedRecipe& solved, const BakeOptions& options, const Observer& observer,
+                StagedOutput& first, PendingOutputs& outputs) {
+  const auto& [recipe, source, mesh, regions, timeline, groups] = solved;
+  for (const MapKind kind : recipe.preview->maps) {
+    const bool of_regions = kind == MapKind::Regions;
+    const std::filesystem::path file =
+        with_ending(recipe.outputs.front().file, of_regions ? ".regions.png" : ".shares.png");
+    outputs.stage(file,
+                  encode_png(of_regions ? region_sheet(recipe, mesh, regions, options, observer)
+                                        : share_sheet(recipe, mesh, regions, timeline, options)));
+    first.report.previews.push_back(file);
+  }
 }
 
 }  // namespace
@@ -32,9 +62,9 @@ BakeReport bake(const Recipe& asked, const BakeOptions& options, const Observer&
                         options, observer);
   ConnectedSources connected = connect_sources(recipe, std::move(loaded), Measuring::On, observer);
   const std::vector<SourceMesh>& sources = connected.sources;
-  const MorphableMesh mesh = share_sources(sources, connected.report, observer);
+  MorphableMesh mesh = share_sources(sources, connected.report, observer);
   clock.start("transition");
-  const std::vector<Eigen::VectorXd> regions = region_distances(mesh, recipe);
+  const RegionFields regions = shape_sources(recipe, connected, mesh, observer);
   clock.start("solve");
   const std::unique_ptr<SolvedTimeline> timeline =
       solve_timeline(recipe, mesh, regions, options.solve, observer);
@@ -54,6 +84,7 @@ BakeReport bake(const Recipe& asked, const BakeOptions& options, const Observer&
           turntable_of(*recipe.preview, options), recipe.preview->formats, observer, outputs);
     }
   }
+  if (recipe.preview) stage_maps(solved, options, observer, staged.front(), outputs);
   outputs.commit();
   for (StagedOutput& each : staged) bake_report.outputs.push_back(std::move(each.report));
 
@@ -72,8 +103,9 @@ BakeReport bake(const Recipe& asked, const BakeOptions& options, const Observer&
 void validate(const Recipe& asked, const BakeOptions& options, const Observer& observer) {
   auto [recipe, loaded] = load_aligned(asked, observer);
   ConnectedSources connected = connect_sources(recipe, std::move(loaded), Measuring::Off, observer);
-  const MorphableMesh mesh = share_sources(connected.sources, connected.report, observer);
-  check_timeline(recipe, mesh, region_distances(mesh, recipe), options.solve);
+  MorphableMesh mesh = share_sources(connected.sources, connected.report, observer);
+  const RegionFields regions = shape_sources(recipe, connected, mesh, observer);
+  check_timeline(recipe, mesh, regions, options.solve);
 }
 
 }  // namespace morphbake

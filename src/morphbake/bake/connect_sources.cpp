@@ -86,6 +86,7 @@ ConnectedSources connect_sources(const Recipe& recipe, std::vector<SourceMesh> s
     connected.sources.push_back(read_source(
         sources[s].name, open_gltf_bytes(remeshed.files.glbs[s], recipe.sources[s].file)));
   }
+  connected.originals = std::move(sources);
   connected.report.steps = clock.finish();
   return connected;
 }

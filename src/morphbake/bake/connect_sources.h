@@ -39,6 +39,7 @@ enum class Measuring { On, Off };
 /// Sources that share one connectivity: those of the recipe, or the same on a new one.
 struct ConnectedSources {
   std::vector<SourceMesh> sources;
+  std::vector<SourceMesh> originals;  ///< as loaded, where `sources` are not
   ConnectivityReport report;
 };
 

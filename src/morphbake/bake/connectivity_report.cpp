@@ -12,10 +12,7 @@ constexpr double kLeastShare = 0.001;   // of the area: smaller regions nobody s
 constexpr double kClearlyLonger = 1.5;  // than asked for; relaxing edges lengthens some
 
 Problem warning(const Recipe& recipe, const char* code, std::string message, std::string hint) {
-  return {Severity::Warning,
-          code,
-          {recipe.file.string(), "/connectivity", 0, 0},
-          std::move(message),
+  return {Severity::Warning, code, location_in(recipe, "/connectivity"), std::move(message),
           std::move(hint)};
 }
 

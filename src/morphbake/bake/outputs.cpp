@@ -27,9 +27,8 @@ Positions still_positions(const SolvedRecipe& solved, const Still& still,
 
 void warn_of_no_targets(const Recipe& recipe, std::size_t index, const Observer& observer) {
   report(observer,
-         Problem{Severity::Warning,
-                 "basis.nothing-moves",
-                 {recipe.file.string(), fmt::format("/outputs/{}", index), 0, 0},
+         Problem{Severity::Warning, "basis.nothing-moves",
+                 location_in(recipe, fmt::format("/outputs/{}", index)),
                  "no track or key changes any vertex: the file is a plain mesh",
                  "check that regions reach vertices, and that tracks lead to another source"});
 }
@@ -38,9 +37,8 @@ void warn_of_no_targets(const Recipe& recipe, std::size_t index, const Observer&
 void warn_of_targets(const Recipe& recipe, std::size_t index, std::size_t count,
                      const Observer& observer) {
   if (count <= kEngineTargetLimit) return;
-  report(observer, Problem{Severity::Warning,
-                           "export.many-targets",
-                           {recipe.file.string(), fmt::format("/outputs/{}/targets", index), 0, 0},
+  report(observer, Problem{Severity::Warning, "export.many-targets",
+                           location_in(recipe, fmt::format("/outputs/{}/targets", index)),
                            fmt::format("{} morph targets; three.js and Babylon.js read at most {}",
                                        count, kEngineTargetLimit),
                            "use \"targets\": \"tracks\", a lower fps or a shorter timeline"});
@@ -68,9 +66,8 @@ void check_normals(const Recipe& recipe, std::size_t index, const NormalReport& 
   if (is_whole && is_mostly) return;
   const double bound = is_whole ? *bounds.percentile_99 : *bounds.maximum;
   Problem problem{
-      output.unmet_is_error ? Severity::Error : Severity::Warning,
-      "export.normal-error",
-      {recipe.file.string(), fmt::format("/outputs/{}/max_normal_error", index), 0, 0},
+      output.unmet_is_error ? Severity::Error : Severity::Warning, "export.normal-error",
+      location_in(recipe, fmt::format("/outputs/{}/max_normal_error", index)),
       fmt::format(
           "normals are up to {:.2f} degrees off ({:.2f} for 99 in 100), more than the {:.4g} "
           "that are allowed; worst at vertex {} and {:.4g} s",
@@ -92,31 +89,54 @@ ReferenceMotion watched(const ReferenceMotion& motion, const Observer& observer)
           }};
 }
 
-/// A morph and the motion that it is to show.
-struct MorphWithMotion {
+/// A morph and the motion that each of its clips is to show; of a still, that it does not move.
+struct MorphWithMotions {
   MeshMorph morph;
-  ReferenceMotion motion;
+  std::unique_ptr<ReferenceMotion> timeline;  ///< of which the motions are parts
+  std::vector<ReferenceMotion> motions;
 };
 
-MorphWithMotion make_still_output(const SolvedRecipe& solved, const Still& still,
-                                  const SolveOptions& options) {
+MorphWithMotions make_still_output(const SolvedRecipe& solved, const Still& still,
+                                   const SolveOptions& options) {
   const Positions positions = still_positions(solved, still, options);
   return {make_still(solved.first, solved.mesh, solved.groups, positions),
-          {{0.0}, [positions](double) { return positions; }}};
+          nullptr,
+          {{{0.0}, [positions](double) { return positions; }}}};
 }
 
-MorphWithMotion make_animated_output(const SolvedRecipe& solved, TargetKind targets,
-                                     const BasisOptions& options, const Observer& observer) {
+MorphWithMotions make_animated_output(const SolvedRecipe& solved, const Output& output,
+                                      const BasisOptions& options, const Observer& observer) {
   const Timeline& timeline = solved.recipe.timeline;
-  const auto& [separable, system, solver, shapes, frames, report] = solved.timeline;
-  const bool by_track = targets == TargetKind::Tracks;
-  const ReferenceMotion motion = watched(
-      by_track ? continuous_motion(shapes, separable, timeline) : stepped_motion(frames), observer);
+  const SolvedTimeline& of = solved.timeline;
+  const bool by_track = output.targets != TargetKind::Frames && of.shapes.base.rows() > 0;
+  MorphWithMotions made;
+  made.timeline = std::make_unique<ReferenceMotion>(watched(
+      by_track ? continuous_motion(of.shapes, *of.separable, timeline) : stepped_motion(of.frames),
+      observer));
+  for (const Clip& clip : output.clips) made.motions.push_back(motion_of(*made.timeline, clip));
   const MorphBasis basis =
-      by_track ? track_basis(shapes, separable, timeline, options) : frame_basis(frames);
-  MeshMorph morph = make_mesh_morph(solved.first, solved.mesh, basis, solved.groups, motion);
-  morph.animation_name = solved.recipe.name;
-  return {std::move(morph), motion};
+      by_track ? track_basis(of.shapes, *of.separable, timeline, output.clips, options)
+               : frame_basis(of.frames, output.clips);
+  made.morph =
+      make_mesh_morph(solved.first, solved.mesh, basis, solved.groups, output.clips, made.motions);
+  return made;
+}
+
+/// How far the clips of what was written are from their motions.
+MorphError measure_clips(const SolvedRecipe& solved, WrittenMesh& written,
+                         const std::vector<ReferenceMotion>& motions) {
+  MorphError worst;
+  for (std::size_t c = 0; c < motions.size(); ++c) {
+    written.mesh.weights = written.clips[c];
+    const MorphError error =
+        measure_mesh_morph(solved.mesh, written.mesh, solved.groups, motions[c]);
+    const double distance = std::max(worst.distance, error.distance);
+    const double most_normals = std::max(worst.normal_angle_99, error.normal_angle_99);
+    if (c == 0 || error.normal_angle > worst.normal_angle) worst = error;
+    worst.distance = distance;
+    worst.normal_angle_99 = most_normals;
+  }
+  return worst;
 }
 
 }  // namespace
@@ -124,26 +144,31 @@ MorphWithMotion make_animated_output(const SolvedRecipe& solved, TargetKind targ
 StagedOutput stage_output(const SolvedRecipe& solved, std::size_t index, const BakeOptions& options,
                           const Observer& observer, PendingOutputs& outputs) {
   const Output& output = solved.recipe.outputs[index];
-  auto [morph, motion] =
+  auto [morph, timeline, motions] =
       output.still ? make_still_output(solved, *output.still, options.solve)
-                   : make_animated_output(solved, output.targets, options.basis, observer);
+                   : make_animated_output(solved, output, options.basis, observer);
   const int node = morph.node;
   const auto added = static_cast<std::ptrdiff_t>(morph.target_names.size());
   StagedOutput staged;
   OutputReport& report = staged.report;
-  report.weight_keys = static_cast<int>(morph.key_times.size());
+  const std::size_t clips = added > 0 ? morph.clips.size() : 0;
+  for (const MorphClip& clip : morph.clips) {
+    report.weight_keys += static_cast<int>(clip.key_times.size());
+  }
   warn_of_skin(solved, observer);
   if (!output.still && added == 0) warn_of_no_targets(solved.recipe, index, observer);
   const std::string bytes =
       write_morph_glb(solved.first.file, morph, fmt::format("morphbake {}", version()));
   morph = {};  // all of it is in the bytes: what they say is measured
   staged.file = outputs.stage(output.file, bytes);
-  const AnimatedMesh written = read_written_mesh(bytes, output.file, node, added > 0);
-  const std::vector<std::string>& names = written.target_names;
+  WrittenMesh written = read_written_mesh(bytes, output.file, node, clips);
+  const std::vector<std::string>& names = written.mesh.target_names;
   if (added > 0) warn_of_targets(solved.recipe, index, names.size(), observer);
-  const MorphError error = measure_mesh_morph(solved.mesh, written, solved.groups, motion);
+  // Without targets nothing moves, and one weight at rest stands for all clips.
+  written.clips.resize(motions.size(), written.clips.front());
+  const MorphError error = measure_clips(solved, written, motions);
 
-  const double diagonal = bounding_diagonal(motion.positions_at(0));
+  const double diagonal = bounding_diagonal(motions.front().positions_at(0));
   report.file = output.file;
   report.bytes = bytes.size();
   report.targets.assign(names.end() - added, names.end());

@@ -13,7 +13,7 @@ struct SolvedRecipe {
   const Recipe& recipe;
   const SourceMesh& first;
   const MorphableMesh& mesh;
-  const std::vector<Eigen::VectorXd>& regions;
+  const RegionFields& regions;
   const SolvedTimeline& timeline;
   const SmoothingGroups& groups;
 };

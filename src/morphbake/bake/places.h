@@ -11,7 +11,7 @@ namespace morphbake {
 ///
 /// Vertices and triangles are those of the sources' files, which a shared connectivity no longer
 /// knows.
-/// @throws BakeError with all problems found: "landmarks.out-of-range"
+/// @throws BakeError with all problems found: "landmarks.out-of-range", "landmarks.off-surface"
 Recipe with_positions(Recipe recipe, const std::vector<SourceMesh>& sources);
 
 }  // namespace morphbake

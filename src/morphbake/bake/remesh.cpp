@@ -30,11 +30,9 @@ std::vector<Problem> name_problems(const Recipe& recipe) {
   std::vector<Problem> problems;
   std::map<std::string, std::string> taken;
   const auto complain = [&](const SourceRef& source, std::string message, const char* hint) {
-    problems.push_back({Severity::Error,
-                        "recipe.bad-value",
-                        {recipe.file.string(), child_pointer("/sources", source.name), 0, 0},
-                        std::move(message),
-                        hint});
+    problems.push_back({Severity::Error, "recipe.bad-value",
+                        location_in(recipe, child_pointer("/sources", source.name)),
+                        std::move(message), hint});
   };
   for (const SourceRef& source : recipe.sources) {
     const bool is_folder = source.name == "." || source.name == "..";
@@ -57,9 +55,8 @@ std::vector<Problem> name_problems(const Recipe& recipe) {
 void check_request(const Recipe& recipe, const std::vector<fs::path>& files) {
   std::vector<Problem> problems;
   if (recipe.connectivity.mode == ConnectivityMode::Shared) {
-    problems.push_back({Severity::Error,
-                        "recipe.bad-value",
-                        {recipe.file.string(), "/connectivity/mode", 0, 0},
+    problems.push_back({Severity::Error, "recipe.bad-value",
+                        location_in(recipe, "/connectivity/mode"),
                         "the mode \"shared\" makes no new triangles",
                         "write \"connectivity\": {\"mode\": \"remesh\"} or \"resample\""});
   }
@@ -69,9 +66,8 @@ void check_request(const Recipe& recipe, const std::vector<fs::path>& files) {
       std::error_code error;
       const bool is_same = fs::absolute(file).lexically_normal() == source.file;
       if (!is_same && !fs::equivalent(file, source.file, error)) continue;
-      problems.push_back({Severity::Error,
-                          "recipe.overwrites-source",
-                          {recipe.file.string(), child_pointer("/sources", source.name), 0, 0},
+      problems.push_back({Severity::Error, "recipe.overwrites-source",
+                          location_in(recipe, child_pointer("/sources", source.name)),
                           fmt::format("{} would replace a source", file.string()),
                           "write into another folder with --output-dir"});
     }

@@ -2,6 +2,9 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
+#include <functional>
+#include <optional>
 #include <utility>
 
 #include "morphbake/json/json.h"
@@ -21,7 +24,7 @@ SurfacePoint point_of(const MorphableMesh& mesh, const Gauge& gauge) {
 }
 
 Eigen::VectorXd gauge_weights(const Recipe& recipe, const MorphableMesh& mesh,
-                              const std::vector<Eigen::VectorXd>& regions) {
+                              const RegionFields& regions) {
   const Gauge& gauge = recipe.gauge;
   if (gauge.kind == Gauge::Kind::Auto) return {};
   Eigen::VectorXd weights = Eigen::VectorXd::Zero(mesh.connectivity.vertex_count);
@@ -29,7 +32,7 @@ Eigen::VectorXd gauge_weights(const Recipe& recipe, const MorphableMesh& mesh,
     for (const Positions& geometry : mesh.geometries) {
       weights += vertex_areas(geometry, mesh.connectivity.triangles);
     }
-    return weights.array() * (1 - regions[static_cast<std::size_t>(gauge.region)].array());
+    return weights.array() * (1 - fixed_distance(regions, gauge.region).array());
   }
   const SurfacePoint point = point_of(mesh, gauge);
   Eigen::Index strongest = 0;
@@ -42,43 +45,110 @@ Eigen::VectorXd gauge_weights(const Recipe& recipe, const MorphableMesh& mesh,
   return weights;
 }
 
+/// How the shares change over a timeline.
+struct TimelineChanges {
+  Shares reference;
+  std::optional<SeparableTimeline> separable;      ///< none when regions move or flood
+  std::function<Eigen::MatrixXd(double time)> at;  ///< from the reference
+  std::vector<bool> untouched;                     ///< #V: at the reference at all times
+  std::vector<double> first_change;  ///< #V without `separable`: of a frame, or -1 for never
+};
+
+bool is_changed(const Eigen::MatrixXd& change, Eigen::Index vertex, Eigen::Index count) {
+  for (Eigen::Index column = vertex; column < change.cols(); column += count) {
+    if (change.col(column).cwiseAbs().maxCoeff() > kChanging) return true;
+  }
+  return false;
+}
+
 /// What changes a vertex's shares over the timeline, or "".
-std::string changed_by(const SeparableTimeline& separable, std::size_t vertex) {
-  for (std::size_t k = 1; k < separable.fields.size(); ++k) {
-    const auto change = separable.fields[k].change.col(static_cast<Eigen::Index>(vertex));
-    if (change.cwiseAbs().maxCoeff() > kChanging) return separable.fields[k].name;
+std::string changed_by(const TimelineChanges& changes, Eigen::Index vertex) {
+  const auto count = static_cast<Eigen::Index>(changes.untouched.size());
+  if (!changes.separable) {
+    const double time = changes.first_change[static_cast<std::size_t>(vertex)];
+    return time < 0 ? "" : fmt::format("the timeline at {:.4g} s", time);
+  }
+  const std::vector<TransitionField>& fields = changes.separable->fields;
+  for (std::size_t k = 1; k < fields.size(); ++k) {
+    if (is_changed(fields[k].change, vertex, count)) return fmt::format("\"{}\"", fields[k].name);
   }
   return "";
 }
 
-std::vector<bool> held_vertices(const Recipe& recipe, const std::vector<Eigen::VectorXd>& regions,
-                                const SeparableTimeline& separable) {
-  std::vector<bool> held(static_cast<std::size_t>(separable.fields[0].change.cols()), false);
+TimelineChanges changes_of_fields(SeparableTimeline separable) {
+  TimelineChanges changes;
+  changes.reference = separable.reference;
+  changes.untouched = untouched_vertices(separable);
+  changes.separable = std::move(separable);
+  return changes;
+}
+
+/// Looks at every frame: regions that move leave no other way.
+void survey_frames(const Timeline& timeline, Eigen::Index count, TimelineChanges& changes) {
+  UntouchedVertices untouched(count);
+  changes.first_change.assign(static_cast<std::size_t>(count), -1);
+  Eigen::MatrixXd start;
+  for (const double time : frame_times(timeline)) {
+    const Eigen::MatrixXd change = changes.at(time);
+    untouched.add(change);
+    if (start.size() == 0) start = change;
+    const Eigen::MatrixXd moved = change - start;
+    for (Eigen::Index v = 0; v < count; ++v) {
+      double& first = changes.first_change[static_cast<std::size_t>(v)];
+      if (first < 0 && is_changed(moved, v, count)) first = time;
+    }
+  }
+  changes.untouched = untouched.mask();
+}
+
+Shares start_of(const Recipe& recipe) {
+  const Timeline& timeline = recipe.timeline;
+  if (timeline.keys.empty()) return timeline.start;
+  return recipe.states[static_cast<std::size_t>(timeline.keys.front().state)].mix;
+}
+
+TimelineChanges changes_of(const Recipe& recipe, const RegionFields& regions, Eigen::Index count) {
+  TimelineChanges changes;
+  if (is_separable(recipe, regions)) {
+    changes = changes_of_fields(separate_timeline(recipe, regions, count));
+  } else {
+    changes.reference = start_of(recipe);
+  }
+  changes.at = [&recipe, &regions, count,
+                start = uniform_transition(changes.reference, count)](double time) {
+    return Eigen::MatrixXd(transition_at(recipe, regions, count, time) - start);
+  };
+  if (!changes.separable) survey_frames(recipe.timeline, count, changes);
+  return changes;
+}
+
+std::vector<bool> held_vertices(const Recipe& recipe, const RegionFields& regions,
+                                const TimelineChanges& changes) {
+  std::vector<bool> held(changes.untouched.size(), false);
   std::vector<Problem> problems;
   for (std::size_t i = 0; i < recipe.hold.regions.size(); ++i) {
-    const auto region = static_cast<std::size_t>(recipe.hold.regions[i]);
+    const int region = recipe.hold.regions[i];
+    const Eigen::VectorXd& d = fixed_distance(regions, region);
     std::string culprit;
-    for (std::size_t v = 0; v < held.size(); ++v) {
-      if (regions[region](static_cast<Eigen::Index>(v)) > kInside) continue;
-      held[v] = true;
-      if (culprit.empty()) culprit = changed_by(separable, v);
+    for (Eigen::Index v = 0; v < d.size(); ++v) {
+      if (d(v) > kInside) continue;
+      held[static_cast<std::size_t>(v)] = true;
+      if (culprit.empty()) culprit = changed_by(changes, v);
     }
     if (culprit.empty()) continue;
-    problems.push_back(
-        {Severity::Error,
-         "recipe.held-region-changes",
-         {recipe.file.string(), child_pointer("/hold", i), 0, 0},
-         fmt::format("the region {} is held, but \"{}\" changes vertices inside of it",
-                     recipe.regions[region].name, culprit),
-         "hold a smaller region, or let the edit's region end before it"});
+    problems.push_back({Severity::Error, "recipe.held-region-changes",
+                        location_in(recipe, child_pointer("/hold", i)),
+                        fmt::format("the region {} is held, but {} changes vertices inside of it",
+                                    recipe.regions[static_cast<std::size_t>(region)].name, culprit),
+                        "hold a smaller region, or let the edit's region end before it"});
   }
   if (!problems.empty()) throw BakeError(std::move(problems));
   return held;
 }
 
 ConstraintRequest requested_constraints(const Recipe& recipe, const MorphableMesh& mesh,
-                                        const std::vector<Eigen::VectorXd>& regions,
-                                        const SeparableTimeline& separable) {
+                                        const RegionFields& regions,
+                                        const TimelineChanges& changes) {
   ConstraintRequest request;
   request.gauge_weights = gauge_weights(recipe, mesh, regions);
   if (recipe.gauge.kind == Gauge::Kind::Anchor) {
@@ -89,36 +159,72 @@ ConstraintRequest requested_constraints(const Recipe& recipe, const MorphableMes
   if (recipe.hold.rule == Hold::Rule::None) request.hold = HoldRule::Nothing;
   if (recipe.hold.rule == Hold::Rule::Regions) {
     request.hold = HoldRule::Given;
-    request.held = held_vertices(recipe, regions, separable);
+    request.held = held_vertices(recipe, regions, changes);
   }
   return request;
 }
 
 std::unique_ptr<DisplacementSystem> make_system(const Recipe& recipe, const MorphableMesh& mesh,
-                                                const std::vector<Eigen::VectorXd>& regions,
-                                                const SeparableTimeline& separable,
+                                                const RegionFields& regions,
+                                                const TimelineChanges& changes,
                                                 RightHandSide rule) {
   const Components components = connected_components(one_rings(mesh.connectivity));
-  Constraints constraints =
-      choose_constraints(mesh, components, untouched_vertices(separable),
-                         requested_constraints(recipe, mesh, regions, separable));
+  Constraints constraints = choose_constraints(
+      mesh, components, changes.untouched, requested_constraints(recipe, mesh, regions, changes));
   // The anchor is the paper's, whose right-hand side is eq. 6.
   const bool is_anchored = recipe.gauge.kind == Gauge::Kind::Anchor;
   return std::make_unique<DisplacementSystem>(mesh, std::move(constraints),
                                               is_anchored ? RightHandSide::Vertex : rule);
 }
 
-void check_every_frame(const Recipe& recipe) {
+/// Targets that are shapes need a timeline that is made of shapes.
+void check_targets(const Recipe& recipe, bool is_made_of_shapes, const std::string& reason) {
+  if (is_made_of_shapes) return;
   for (std::size_t i = 0; i < recipe.outputs.size(); ++i) {
     const Output& output = recipe.outputs[i];
-    if (output.still || output.targets == TargetKind::Frames) continue;
-    throw BakeError(Problem{Severity::Error,
-                            "recipe.needs-frames",
-                            {recipe.file.string(), child_pointer("/outputs", i), 0, 0},
-                            "\"tracks\" targets are shapes that are solved once; the option "
-                            "/solve/every_frame solves frames instead",
-                            "write \"targets\": \"frames\", or leave every_frame out"});
+    if (output.still || output.targets != TargetKind::Tracks) continue;
+    throw BakeError(Problem{Severity::Error, "recipe.needs-frames",
+                            location_in(recipe, child_pointer("/outputs", i)),
+                            "\"tracks\" targets are shapes that are solved once; " + reason,
+                            "write \"targets\": \"frames\""});
   }
+}
+
+/// What must stand still: held and gauge regions, and regions of states that become stills.
+void check_still_regions(const Recipe& recipe, const RegionFields& regions) {
+  std::vector<Problem> problems;
+  const auto check = [&](int region, bool may_flood, const std::string& pointer) {
+    if (region < 0) return;
+    const RegionField& field = regions[static_cast<std::size_t>(region)];
+    if (!field.moves && (may_flood || !field.floods)) return;
+    problems.push_back(
+        {Severity::Error, "recipe.moving-region", location_in(recipe, pointer),
+         fmt::format("the region {} changes with time", recipe.regions[region].name),
+         "name a region that stands still here; a still may name a time instead of a state"});
+  };
+  for (std::size_t i = 0; i < recipe.hold.regions.size(); ++i) {
+    check(recipe.hold.regions[i], false, child_pointer("/hold", i));
+  }
+  if (recipe.gauge.kind == Gauge::Kind::Region) check(recipe.gauge.region, false, "/gauge/region");
+  for (std::size_t i = 0; i < recipe.outputs.size(); ++i) {
+    const auto& still = recipe.outputs[i].still;
+    if (!still || !std::holds_alternative<int>(still->at)) continue;
+    for (const Edit& edit :
+         recipe.states[static_cast<std::size_t>(std::get<int>(still->at))].edits) {
+      check(edit.region, true, child_pointer("/outputs", i) + "/still/at");
+    }
+  }
+  if (!problems.empty()) throw BakeError(std::move(problems));
+}
+
+/// Whether shapes or frames are solved, once all is checked.
+bool solves_shapes(const Recipe& recipe, const RegionFields& regions, const SolveOptions& options) {
+  check_still_regions(recipe, regions);
+  const bool separable = is_separable(recipe, regions);
+  check_targets(recipe, separable, "here a region moves or floods, so every frame is another");
+  check_targets(recipe, !options.every_frame,
+                "the option /solve/every_frame solves frames instead");
+  return separable && !options.every_frame;
 }
 
 double mean_edge(const MorphableMesh& mesh, const Positions& positions) {
@@ -132,36 +238,52 @@ double mean_edge(const MorphableMesh& mesh, const Positions& positions) {
   return triangles.rows() == 0 ? 0 : sum / static_cast<double>(triangles.size());
 }
 
-/// The anchor's own equation is not met: by how much, that is how far the vertex stands out of its
-/// neighbours.
-void warn_of_spike(const Recipe& recipe, const MorphableMesh& mesh, const SolvedTimeline& solved,
-                   const Observer& observer) {
-  int anchor = -1;
-  for (const int each : solved.system->constraints().anchor) anchor = std::max(anchor, each);
-  if (anchor < 0) return;
-  const int component = solved.system->components().label[static_cast<std::size_t>(anchor)];
-  std::vector<Eigen::RowVector3d> imbalances;
-  for (const TransitionField& field : solved.separable.fields) {
-    imbalances.emplace_back(solved.system->goal(field.change).imbalance.row(component));
+/// What was put into the anchor's equation at `time`.
+using ImbalanceAt = std::function<Eigen::RowVector3d(double time)>;
+
+ImbalanceAt imbalance_of(const Recipe& recipe, const SolvedTimeline& solved,
+                         const TimelineChanges& changes, int component) {
+  const DisplacementSystem& system = *solved.system;
+  if (!solved.separable) {
+    return [&system, &changes, component](double time) -> Eigen::RowVector3d {
+      return system.goal(changes.at(time)).imbalance.row(component);
+    };
   }
-  double largest = 0, when = 0;
-  for (const double time : frame_times(recipe.timeline)) {
-    const Eigen::VectorXd phi = field_coefficients(recipe.timeline, solved.separable, time);
+  std::vector<Eigen::RowVector3d> imbalances;
+  for (const TransitionField& field : solved.separable->fields) {
+    imbalances.emplace_back(system.goal(field.change).imbalance.row(component));
+  }
+  return [&recipe, &solved, imbalances](double time) {
+    const Eigen::VectorXd phi = field_coefficients(recipe.timeline, *solved.separable, time);
     Eigen::RowVector3d sum = Eigen::RowVector3d::Zero();
     for (std::size_t k = 0; k < imbalances.size(); ++k) {
       sum += phi(static_cast<Eigen::Index>(k)) * imbalances[k];
     }
-    if (sum.norm() <= largest) continue;
-    largest = sum.norm();
+    return sum;
+  };
+}
+
+/// The anchor's own equation is not met: by how much, that is how far the vertex stands out of its
+/// neighbours.
+void warn_of_spike(const Recipe& recipe, const MorphableMesh& mesh, const SolvedTimeline& solved,
+                   const TimelineChanges& changes, const Observer& observer) {
+  int anchor = -1;
+  for (const int each : solved.system->constraints().anchor) anchor = std::max(anchor, each);
+  if (anchor < 0) return;
+  const int component = solved.system->components().label[static_cast<std::size_t>(anchor)];
+  const ImbalanceAt imbalance_at = imbalance_of(recipe, solved, changes, component);
+  double largest = 0, when = 0;
+  for (const double time : frame_times(recipe.timeline)) {
+    const double imbalance = imbalance_at(time).norm();
+    if (imbalance <= largest) continue;
+    largest = imbalance;
     when = time;
   }
   const int degree = one_rings(mesh.connectivity).degree(anchor);
   const double edge = mean_edge(mesh, mesh.geometries[0]);
   const double edges = edge > 0 ? largest / degree / edge : 0;
   report(observer,
-         Problem{Severity::Warning,
-                 "solve.anchor-spike",
-                 {recipe.file.string(), "/gauge/anchor", 0, 0},
+         Problem{Severity::Warning, "solve.anchor-spike", location_in(recipe, "/gauge/anchor"),
                  fmt::format("the anchored vertex stands {:.2g} edge lengths out of its neighbours "
                              "at {:.3g} s: its equation was dropped, and took the whole imbalance",
                              edges, when),
@@ -185,72 +307,66 @@ SolveReport report_of(const SolvedTimeline& solved, std::vector<SolveRecord> rec
 
 }  // namespace
 
-void check_timeline(const Recipe& recipe, const MorphableMesh& mesh,
-                    const std::vector<Eigen::VectorXd>& regions, const SolveOptions& options) {
-  if (options.every_frame) check_every_frame(recipe);
-  const SeparableTimeline separable =
-      separate_timeline(recipe, regions, mesh.connectivity.vertex_count);
-  const auto system = make_system(recipe, mesh, regions, separable, options.right_hand_side);
+void check_timeline(const Recipe& recipe, const MorphableMesh& mesh, const RegionFields& regions,
+                    const SolveOptions& options) {
+  solves_shapes(recipe, regions, options);
+  const TimelineChanges changes = changes_of(recipe, regions, mesh.connectivity.vertex_count);
+  const auto system = make_system(recipe, mesh, regions, changes, options.right_hand_side);
   choose_solver(*system, options);
 }
 
 std::unique_ptr<SolvedTimeline> solve_timeline(const Recipe& recipe, const MorphableMesh& mesh,
-                                               const std::vector<Eigen::VectorXd>& regions,
+                                               const RegionFields& regions,
                                                const SolveOptions& options,
                                                const Observer& observer) {
-  if (options.every_frame) check_every_frame(recipe);
+  const bool by_shapes = solves_shapes(recipe, regions, options);
+  TimelineChanges changes = changes_of(recipe, regions, mesh.connectivity.vertex_count);
   auto solved = std::make_unique<SolvedTimeline>();
-  const Eigen::Index count = mesh.connectivity.vertex_count;
-  solved->separable = separate_timeline(recipe, regions, count);
-  const SeparableTimeline& separable = solved->separable;
-  solved->system = make_system(recipe, mesh, regions, separable, options.right_hand_side);
+  solved->reference = changes.reference;
+  solved->system = make_system(recipe, mesh, regions, changes, options.right_hand_side);
+  solved->separable = std::move(changes.separable);
   solved->solver = std::make_unique<SurfaceSolver>(*solved->system, options, observer);
   std::vector<SolveRecord> records;
-  if (options.every_frame) {
-    const Eigen::MatrixXd start = uniform_transition(separable.reference, count);
-    const auto change_at = [&, start](double time) -> Eigen::MatrixXd {
-      return transition_at(recipe, regions, count, time) - start;
-    };
+  if (by_shapes) {
+    solved->shapes = solve_fields(*solved->solver, mesh, *solved->separable, observer);
+    solved->frames = combined_frames(solved->shapes, *solved->separable, recipe.timeline);
+    records = solved->shapes.records;
+  } else {
     SolvedFrames frames =
-        solved_frames(*solved->solver, reference_positions(mesh, separable.reference),
-                      frame_times(recipe.timeline), change_at, observer);
+        solved_frames(*solved->solver, reference_positions(mesh, solved->reference),
+                      frame_times(recipe.timeline), changes.at, observer);
     solved->frames = std::move(frames.source);
     records = std::move(frames.records);
-  } else {
-    solved->shapes = solve_fields(*solved->solver, mesh, separable, observer);
-    solved->frames = combined_frames(solved->shapes, separable, recipe.timeline);
-    records = solved->shapes.records;
   }
-  warn_of_spike(recipe, mesh, *solved, observer);
+  warn_of_spike(recipe, mesh, *solved, changes, observer);
   solved->report = report_of(*solved, std::move(records));
   return solved;
 }
 
-Positions position_at(const Recipe& recipe, const MorphableMesh& mesh,
-                      const std::vector<Eigen::VectorXd>& regions, const SolvedTimeline& solved,
-                      double time) {
-  const SeparableTimeline& separable = solved.separable;
+Positions position_at(const Recipe& recipe, const MorphableMesh& mesh, const RegionFields& regions,
+                      const SolvedTimeline& solved, double time) {
   if (solved.shapes.base.rows() > 0) {
-    return combine_shapes(solved.shapes, field_coefficients(recipe.timeline, separable, time));
+    return combine_shapes(solved.shapes,
+                          field_coefficients(recipe.timeline, *solved.separable, time));
   }
   const Eigen::Index count = mesh.connectivity.vertex_count;
   const Eigen::MatrixXd change =
-      transition_at(recipe, regions, count, time) - uniform_transition(separable.reference, count);
+      transition_at(recipe, regions, count, time) - uniform_transition(solved.reference, count);
   std::vector<SolveRecord> records;
-  return reference_positions(mesh, separable.reference) +
+  return reference_positions(mesh, solved.reference) +
          solve_change(*solved.solver, change, "", records);
 }
 
 Positions solve_state(const Recipe& recipe, const State& state, const MorphableMesh& mesh,
-                      const std::vector<Eigen::VectorXd>& regions, const SolveOptions& options) {
+                      const RegionFields& regions, const SolveOptions& options) {
   const Eigen::Index count = mesh.connectivity.vertex_count;
-  const SeparableTimeline alone = separate_state(state, regions, count);
-  const auto system = make_system(recipe, mesh, regions, alone, options.right_hand_side);
+  const TimelineChanges changes = changes_of_fields(separate_state(state, regions, count));
+  const auto system = make_system(recipe, mesh, regions, changes, options.right_hand_side);
   const Observer nobody;
   const SurfaceSolver solver(*system, options, nobody);
   std::vector<SolveRecord> records;
-  return reference_positions(mesh, alone.reference) +
-         solve_change(solver, alone.fields[0].change, state.name, records);
+  return reference_positions(mesh, changes.reference) +
+         solve_change(solver, changes.separable->fields[0].change, state.name, records);
 }
 
 }  // namespace morphbake

@@ -1,46 +1,49 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 
 #include "morphbake/bake/bake.h"
 #include "morphbake/solve/frame_source.h"
 
 namespace morphbake {
 
-/// A timeline, solved: its shapes, or with `every_frame` its frames alone.
+/// A timeline, solved: its shapes where it is separable, else or with `every_frame` its frames
+/// alone.
 struct SolvedTimeline {
-  SeparableTimeline separable;
+  Shares reference;                            ///< what displacements start from
+  std::optional<SeparableTimeline> separable;  ///< none when regions move or flood
   std::unique_ptr<DisplacementSystem> system;
   std::unique_ptr<SurfaceSolver> solver;
-  SolvedShapes shapes;  ///< empty with `every_frame`
+  SolvedShapes shapes;  ///< empty when frames were solved
   FrameSource frames;
   SolveReport report;
 };
 
 /// Chooses what is held and where the rest stands, factorises, solves.
 ///
-/// @throws BakeError "recipe.held-region-changes", "recipe.needs-frames", "options.cannot-hold",
-///         "solve.no-convergence"
+/// @throws BakeError "recipe.held-region-changes", "recipe.moving-region", "recipe.needs-frames",
+///         "options.cannot-hold", "solve.no-convergence"
 std::unique_ptr<SolvedTimeline> solve_timeline(const Recipe& recipe, const MorphableMesh& mesh,
-                                               const std::vector<Eigen::VectorXd>& regions,
+                                               const RegionFields& regions,
                                                const SolveOptions& options,
                                                const Observer& observer);
 
 /// Finds what solve_timeline would refuse before it solves.
 ///
-/// @throws BakeError "recipe.held-region-changes", "recipe.needs-frames", "options.cannot-hold"
-void check_timeline(const Recipe& recipe, const MorphableMesh& mesh,
-                    const std::vector<Eigen::VectorXd>& regions, const SolveOptions& options);
+/// @throws BakeError "recipe.held-region-changes", "recipe.moving-region", "recipe.needs-frames",
+///         "options.cannot-hold"
+void check_timeline(const Recipe& recipe, const MorphableMesh& mesh, const RegionFields& regions,
+                    const SolveOptions& options);
 
 /// The shape of the timeline at `time`: #V by 3, scene space.
-Positions position_at(const Recipe& recipe, const MorphableMesh& mesh,
-                      const std::vector<Eigen::VectorXd>& regions, const SolvedTimeline& solved,
-                      double time);
+Positions position_at(const Recipe& recipe, const MorphableMesh& mesh, const RegionFields& regions,
+                      const SolvedTimeline& solved, double time);
 
-/// Shape of one state, held and gauged for itself.
+/// Shape of one state, whose regions stand still, held and gauged for itself.
 ///
 /// @return #V by 3, scene space
 Positions solve_state(const Recipe& recipe, const State& state, const MorphableMesh& mesh,
-                      const std::vector<Eigen::VectorXd>& regions, const SolveOptions& options);
+                      const RegionFields& regions, const SolveOptions& options);
 
 }  // namespace morphbake

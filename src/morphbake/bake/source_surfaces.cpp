@@ -76,9 +76,8 @@ void check_room(const Recipe& recipe, std::size_t landmarks) {
   const int limit = recipe.connectivity.max_vertices;
   if (landmarks <= static_cast<std::size_t>(limit)) return;
   throw BakeError(
-      Problem{Severity::Error,
-              "connectivity.too-many-vertices",
-              {recipe.file.string(), "/connectivity/max_vertices", 0, 0},
+      Problem{Severity::Error, "connectivity.too-many-vertices",
+              location_in(recipe, "/connectivity/max_vertices"),
               fmt::format("{} landmarks need a vertex each; max_vertices is {}", landmarks, limit),
               "allow more vertices, many times the number of landmarks"});
 }

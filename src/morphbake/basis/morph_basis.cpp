@@ -33,15 +33,17 @@ class WeightCurves {
                CurveTolerance tolerance)
       : separable_(separable), timeline_(timeline), tolerance_(std::move(tolerance)) {}
 
-  std::vector<WeightKey> keys() {
-    const std::vector<double> breaks = timeline_breaks(timeline_);
+  /// Keys of a part of the timeline, with times from its beginning on.
+  std::vector<WeightKey> keys(const Clip& clip) {
+    begin_ = clip.begin;
+    keys_.clear();
     keys_.push_back(key_at(0));
-    for (std::size_t i = 1; i < breaks.size(); ++i) {
-      const auto end = static_cast<float>(breaks[i]);
+    for (const double time : breaks_in(clip)) {
+      const auto end = static_cast<float>(time - begin_);
       if (end <= keys_.back().time) continue;
       // A jump at the break needs two keys: the last number before it still has the old weights.
-      const WeightKey after = key_at(breaks[i]);
-      WeightKey before{end, weights_before(breaks[i])};
+      const WeightKey after = key_at_moment(time);
+      WeightKey before{end, weights_before(time)};
       const bool jumps = moved(before.weights - after.weights) > tolerance_.distance;
       if (jumps) before.time = std::nextafter(end, -std::numeric_limits<float>::infinity());
       refine(keys_.back(), before, 0);
@@ -56,10 +58,21 @@ class WeightCurves {
     return field_coefficients_before(timeline_, separable_, time).tail(tolerance_.reach.size());
   }
 
-  WeightKey key_at(double time) const {
-    return {static_cast<float>(time),
+  /// Breaks of the timeline inside of a clip, and its end.
+  std::vector<double> breaks_in(const Clip& clip) const {
+    std::vector<double> breaks = timeline_breaks(timeline_);
+    std::erase_if(breaks, [&](double time) { return time <= clip.begin || time >= clip.end; });
+    breaks.push_back(clip.end);
+    return breaks;
+  }
+
+  WeightKey key_at_moment(double time) const {
+    return {static_cast<float>(time - begin_),
             field_coefficients(timeline_, separable_, time).tail(tolerance_.reach.size())};
   }
+
+  /// @param time  from the beginning of the clip on
+  WeightKey key_at(double time) const { return key_at_moment(begin_ + time); }
 
   /// A bound on how far a vertex moves when the weights change by `difference`.
   double moved(const Eigen::VectorXd& difference) const {
@@ -91,6 +104,7 @@ class WeightCurves {
   const SeparableTimeline& separable_;
   const Timeline& timeline_;
   CurveTolerance tolerance_;
+  double begin_ = 0;  // of the clip
   std::vector<WeightKey> keys_;
 };
 
@@ -111,14 +125,31 @@ std::string unique_name(const std::string& wished, std::set<std::string>& taken)
   return name;
 }
 
-void set_keys(MorphBasis& basis, const std::vector<WeightKey>& keys) {
-  basis.key_weights.resize(static_cast<Eigen::Index>(keys.size()),
-                           static_cast<Eigen::Index>(basis.targets.size()));
+void add_clip(MorphBasis& basis, const std::vector<WeightKey>& keys) {
+  WeightKeys clip;
+  clip.weights.resize(static_cast<Eigen::Index>(keys.size()),
+                      static_cast<Eigen::Index>(basis.targets.size()));
   for (std::size_t k = 0; k < keys.size(); ++k) {
-    basis.key_times.push_back(keys[k].time);
-    basis.key_weights.row(static_cast<Eigen::Index>(k)) =
+    clip.times.push_back(keys[k].time);
+    clip.weights.row(static_cast<Eigen::Index>(k)) =
         keys[k].weights.cast<float>().cwiseMax(0.0F).cwiseMin(1.0F).transpose();
   }
+  basis.clips.push_back(std::move(clip));
+}
+
+/// Weights of frames, of which each fades into the next: one a frame but the first.
+Eigen::VectorXd frame_weights(const std::vector<double>& times, double time) {
+  Eigen::VectorXd weights = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(times.size()) - 1);
+  const auto put = [&](std::size_t frame, double weight) {
+    if (frame > 0) weights(static_cast<Eigen::Index>(frame) - 1) = weight;
+  };
+  const auto next = static_cast<std::size_t>(
+      std::lower_bound(times.begin(), times.end() - 1, time) - times.begin());
+  if (next == 0) return weights;
+  const double share = std::min(1.0, (time - times[next - 1]) / (times[next] - times[next - 1]));
+  put(next - 1, 1 - share);
+  put(next, share);
+  return weights;
 }
 
 double largest_row(const Positions& rows) {
@@ -128,7 +159,8 @@ double largest_row(const Positions& rows) {
 }  // namespace
 
 MorphBasis track_basis(const SolvedShapes& shapes, const SeparableTimeline& separable,
-                       const Timeline& timeline, const BasisOptions& options) {
+                       const Timeline& timeline, const std::vector<Clip>& clips,
+                       const BasisOptions& options) {
   MorphBasis basis;
   basis.base = shapes.base;
   std::set<std::string> taken;
@@ -138,25 +170,30 @@ MorphBasis track_basis(const SolvedShapes& shapes, const SeparableTimeline& sepa
     basis.targets.push_back({unique_name(shapes.names[k], taken), shapes.displacements[k]});
     tolerance.reach(static_cast<Eigen::Index>(k)) = largest_row(shapes.displacements[k]);
   }
-  set_keys(basis, WeightCurves(separable, timeline, tolerance).keys());
+  WeightCurves curves(separable, timeline, std::move(tolerance));
+  for (const Clip& clip : clips) add_clip(basis, curves.keys(clip));
   return basis;
 }
 
-MorphBasis frame_basis(const FrameSource& frames) {
+MorphBasis frame_basis(const FrameSource& frames, const std::vector<Clip>& clips) {
   const std::vector<double>& times = frames.times;
   MorphBasis basis;
   basis.base = frames.positions(0);
-  std::vector<WeightKey> keys;
-  const auto target_count = static_cast<Eigen::Index>(times.size()) - 1;
-  for (std::size_t f = 0; f < times.size(); ++f) {
-    Eigen::VectorXd weights = Eigen::VectorXd::Zero(target_count);
-    if (f > 0) {
-      weights(static_cast<Eigen::Index>(f) - 1) = 1;
-      basis.targets.push_back({fmt::format("frame-{:04d}", f), frames.positions(f) - basis.base});
-    }
-    keys.push_back({static_cast<float>(times[f]), weights});
+  for (std::size_t f = 1; f < times.size(); ++f) {
+    basis.targets.push_back({fmt::format("frame-{:04d}", f), frames.positions(f) - basis.base});
   }
-  set_keys(basis, keys);
+  for (const Clip& clip : clips) {
+    std::vector<double> moments = times;
+    std::erase_if(moments, [&](double time) { return time <= clip.begin || time >= clip.end; });
+    moments.insert(moments.begin(), clip.begin);
+    moments.push_back(clip.end);
+    std::vector<WeightKey> keys;
+    for (const double time : moments) {
+      const auto at = static_cast<float>(time - clip.begin);
+      if (keys.empty() || at > keys.back().time) keys.push_back({at, frame_weights(times, time)});
+    }
+    add_clip(basis, keys);
+  }
   return basis;
 }
 

@@ -33,16 +33,21 @@ Eigen::SparseMatrix<double> symmetric_laplacian(const OneRings& rings) {
 
 Positions blend_edge_differences(const OneRings& rings, const std::vector<Positions>& geometries,
                                  const Eigen::MatrixXd& weights) {
-  Positions b = Positions::Zero(weights.cols(), 3);
+  const Eigen::Index count = geometries.front().rows();
+  const Eigen::Index stride = weights.cols() > count ? count : 0;
+  Positions b = Positions::Zero(count, 3);
   for (std::size_t s = 0; s < geometries.size(); ++s) {
     const Positions& V = geometries[s];
     const Eigen::RowVectorXd T = weights.row(static_cast<Eigen::Index>(s));
+    if (T.isZero(0)) continue;
     for (int i = 0; i < b.rows(); ++i) {
       const auto v = static_cast<std::size_t>(i);
       for (int n = rings.offsets[v]; n < rings.offsets[v + 1]; ++n) {
         const int j = rings.neighbours[static_cast<std::size_t>(n)];
-        const double T_ij = (T(i) + T(j)) / 2;
-        if (T_ij != 0) b.row(i) += T_ij * (V.row(i) - V.row(j));
+        for (Eigen::Index axis = 0; axis < 3; ++axis) {
+          const double T_ij = (T(i + axis * stride) + T(j + axis * stride)) / 2;
+          b(i, axis) += T_ij * (V(i, axis) - V(j, axis));
+        }
       }
     }
   }
@@ -51,11 +56,16 @@ Positions blend_edge_differences(const OneRings& rings, const std::vector<Positi
 
 Positions blend_vertex_differences(const OneRings& rings, const std::vector<Positions>& geometries,
                                    const Eigen::MatrixXd& weights) {
-  Positions b = Positions::Zero(weights.cols(), 3);
+  const Eigen::Index count = geometries.front().rows();
+  const Eigen::Index stride = weights.cols() > count ? count : 0;
+  Positions b = Positions::Zero(count, 3);
   for (std::size_t s = 0; s < geometries.size(); ++s) {
     const Positions W = differential_coordinates(rings, geometries[s]);
+    const Eigen::RowVectorXd T = weights.row(static_cast<Eigen::Index>(s));
     for (int i = 0; i < b.rows(); ++i) {
-      b.row(i) += rings.degree(i) * weights(static_cast<Eigen::Index>(s), i) * W.row(i);
+      for (Eigen::Index axis = 0; axis < 3; ++axis) {
+        b(i, axis) += rings.degree(i) * T(i + axis * stride) * W(i, axis);
+      }
     }
   }
   return b;

@@ -26,7 +26,7 @@ Eigen::SparseMatrix<double> symmetric_laplacian(const OneRings& rings);
 /// the system is solvable exactly, for any T; fixing one vertex instead (section 4.3 of the paper)
 /// throws the imbalance into it. For constant T it is Deg times the sum of eq. 6. Linear in T.
 /// @param geometries  one a source: #V by 3
-/// @param weights     #sources by #V: row s is the diagonal of T_s
+/// @param weights     #sources by #V: row s is the diagonal of T_s; or by 3 #V, one T_s an axis
 /// @return            b: #V by 3
 /// @see               Alexa 2003, eq. 6; docs/method.md
 Positions blend_edge_differences(const OneRings& rings, const std::vector<Positions>& geometries,
@@ -39,7 +39,7 @@ Positions blend_edge_differences(const OneRings& rings, const std::vector<Positi
 ///
 /// Where T varies in space it does not sum to 0: the system has no solution until it is balanced.
 /// @param geometries  one a source: #V by 3
-/// @param weights     #sources by #V
+/// @param weights     #sources by #V, or 3 #V likewise
 /// @return            b: #V by 3
 /// @see               Alexa 2003, eq. 6
 Positions blend_vertex_differences(const OneRings& rings, const std::vector<Positions>& geometries,

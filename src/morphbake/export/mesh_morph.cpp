@@ -20,22 +20,27 @@ Normals to_mesh_space(const Normals& scene_normals, const Eigen::Matrix3d& linea
 /// Least-squares fit of normal displacements to the weights over all frames.
 std::vector<Normals> fit_normal_targets(const MorphableMesh& mesh, const MorphBasis& basis,
                                         const SmoothingGroups& groups,
-                                        const ReferenceMotion& motion,
+                                        const std::vector<ReferenceMotion>& motions,
                                         const Eigen::Matrix3d& linear) {
   const auto target_count = static_cast<Eigen::Index>(basis.targets.size());
   if (target_count == 0) return {};
   const Normals rest = to_mesh_space(deformed_normals(groups, mesh, basis.base), linear);
   Eigen::MatrixXd gram = Eigen::MatrixXd::Zero(target_count, target_count);
   std::vector<Normals> moments(basis.targets.size(), Normals::Zero(groups.count, 3));
-  for (const double time : motion.frame_times) {
-    const Eigen::VectorXd w = interpolate_keys(basis.key_times, basis.key_weights, time);
+  const auto add = [&](const Eigen::VectorXd& w, const ReferenceMotion& motion, double time) {
     gram += w * w.transpose();
-    if (w.isZero(0)) continue;
+    if (w.isZero(0)) return;
     const Positions positions = motion.positions_at(time);
     const Normals difference =
         to_mesh_space(deformed_normals(groups, mesh, positions), linear) - rest;
     for (Eigen::Index k = 0; k < target_count; ++k) {
       if (w(k) != 0) moments[static_cast<std::size_t>(k)] += w(k) * difference;
+    }
+  };
+  for (std::size_t c = 0; c < motions.size(); ++c) {
+    const WeightKeys& keys = basis.clips[c];
+    for (const double time : motions[c].frame_times) {
+      add(interpolate_keys(keys.times, keys.weights, time), motions[c], time);
     }
   }
   // Targets that never move, or move together, leave the Gram matrix singular: least norm then.
@@ -69,7 +74,6 @@ MeshMorph empty_morph(const SourceMesh& first) {
   morph.node = first.geometry.node;
   morph.mesh = first.geometry.mesh;
   morph.drops_skin = first.geometry.is_posed;
-  morph.key_weights = Eigen::MatrixXf::Zero(1, 0);
   return morph;
 }
 
@@ -126,15 +130,29 @@ ReferenceMotion stepped_motion(const FrameSource& frames) {
           }};
 }
 
+ReferenceMotion motion_of(const ReferenceMotion& motion, const Clip& clip) {
+  ReferenceMotion part;
+  part.frame_times.push_back(0);
+  for (const double time : motion.frame_times) {
+    if (time > clip.begin && time < clip.end) part.frame_times.push_back(time - clip.begin);
+  }
+  part.frame_times.push_back(clip.end - clip.begin);
+  part.positions_at = [&motion, begin = clip.begin](double time) {
+    return motion.positions_at(begin + time);
+  };
+  return part;
+}
+
 MeshMorph make_mesh_morph(const SourceMesh& first, const MorphableMesh& mesh,
                           const MorphBasis& basis, const SmoothingGroups& groups,
-                          const ReferenceMotion& motion) {
+                          const std::vector<Clip>& clips,
+                          const std::vector<ReferenceMotion>& motions) {
   MeshMorph morph = empty_morph(first);
   add_rest(first, mesh, groups, basis.base, morph);
   const Eigen::Matrix3d linear = linear_part(first);
   const Eigen::Matrix3d to_mesh = linear.inverse();
   std::vector<Normals> normals;
-  if (groups.count > 0) normals = fit_normal_targets(mesh, basis, groups, motion, linear);
+  if (groups.count > 0) normals = fit_normal_targets(mesh, basis, groups, motions, linear);
   for (std::size_t k = 0; k < basis.targets.size(); ++k) {
     morph.target_names.push_back(basis.targets[k].name);
     const Positions displacement = basis.targets[k].displacement * to_mesh.transpose();
@@ -149,8 +167,9 @@ MeshMorph make_mesh_morph(const SourceMesh& first, const MorphableMesh& mesh,
       begin += count;
     }
   }
-  morph.key_times = basis.key_times;
-  morph.key_weights = basis.key_weights;
+  for (std::size_t c = 0; c < clips.size(); ++c) {
+    morph.clips.push_back({clips[c].name, basis.clips[c].times, basis.clips[c].weights});
+  }
   return morph;
 }
 

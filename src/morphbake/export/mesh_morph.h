@@ -26,13 +26,20 @@ ReferenceMotion continuous_motion(const SolvedShapes& shapes, const SeparableTim
 /// @param frames  must outlive the motion
 ReferenceMotion stepped_motion(const FrameSource& frames);
 
+/// The part of a motion that a clip shows, from 0 on.
+///
+/// @param motion  must outlive it
+ReferenceMotion motion_of(const ReferenceMotion& motion, const Clip& clip);
+
 /// Brings a basis from K and scene space to the primitives of the first source's file.
 ///
 /// Normal targets are the least-squares fit of the deformed normals over all frames to the weights:
 /// normals are not linear in them. Vertices that do not move keep the file's own bytes.
+/// @param clips  with their motions, one each
 MeshMorph make_mesh_morph(const SourceMesh& first, const MorphableMesh& mesh,
                           const MorphBasis& basis, const SmoothingGroups& groups,
-                          const ReferenceMotion& motion);
+                          const std::vector<Clip>& clips,
+                          const std::vector<ReferenceMotion>& motions);
 
 /// A plain mesh at `positions`, without targets.
 MeshMorph make_still(const SourceMesh& first, const MorphableMesh& mesh,

@@ -148,20 +148,24 @@ AnimationCurve constant_weights(const Eigen::VectorXd& rest) {
   return curve;
 }
 
-/// The last animation that moves the weights of `node`, since a bake appends its own to those of
-/// the source; the weights at rest when there is none.
-AnimationCurve read_weights(const GltfDocument& document, int node, const Eigen::VectorXd& rest) {
-  const auto count = static_cast<int>(rest.size());
-  for (std::size_t a = document.model.animations.size(); count > 0 && a-- > 0;) {
+/// The last animations that move the weights of `node`, in their order: a bake appends its own to
+/// those of the source.
+std::vector<AnimationCurve> last_weights(const GltfDocument& document, int node, int targets,
+                                         std::size_t most) {
+  std::vector<AnimationCurve> curves;
+  for (std::size_t a = document.model.animations.size(); targets > 0 && a-- > 0;) {
+    if (curves.size() == most) break;
     for (const tinygltf::AnimationChannel& channel : document.model.animations[a].channels) {
       if (channel.target_node != node || channel.target_path != "weights") continue;
-      return read_curve(document, static_cast<int>(a), channel.sampler, count);
+      curves.push_back(read_curve(document, static_cast<int>(a), channel.sampler, targets));
+      break;
     }
   }
-  return constant_weights(rest);
+  std::ranges::reverse(curves);
+  return curves;
 }
 
-AnimatedMesh read_mesh(const GltfDocument& document, const MeshNode& at, bool clip) {
+WrittenMesh read_mesh(const GltfDocument& document, const MeshNode& at, std::size_t clips) {
   const tinygltf::Mesh& source = document.model.meshes[static_cast<std::size_t>(at.mesh)];
   const std::size_t targets = target_count(document, at.mesh);
   AnimatedMesh mesh;
@@ -178,8 +182,11 @@ AnimatedMesh read_mesh(const GltfDocument& document, const MeshNode& at, bool cl
   mesh.target_names = target_names(source, targets);
   const tinygltf::Node& node = document.model.nodes[static_cast<std::size_t>(at.node)];
   const Eigen::VectorXd rest = rest_weights(node, source, targets);
-  mesh.weights = clip ? read_weights(document, at.node, rest) : constant_weights(rest);
-  return mesh;
+  std::vector<AnimationCurve> curves =
+      last_weights(document, at.node, static_cast<int>(rest.size()), clips);
+  if (curves.empty()) curves.push_back(constant_weights(rest));
+  mesh.weights = curves.back();
+  return {std::move(mesh), std::move(curves)};
 }
 
 }  // namespace
@@ -191,13 +198,13 @@ AnimatedMesh read_animated_mesh(const std::filesystem::path& file, const MeshCho
 AnimatedMesh read_animated_mesh(const GltfFile& file, const MeshChoice& choice) {
   const MeshNode at = choose_mesh_node(*file, choice, Ambiguity::TakeFirst);
   check_mesh_size(*file, at.mesh);
-  return read_mesh(*file, at, true);
+  return read_mesh(*file, at, 1).mesh;
 }
 
-AnimatedMesh read_written_mesh(const std::string& glb, const std::filesystem::path& name, int node,
-                               bool clip) {
+WrittenMesh read_written_mesh(const std::string& glb, const std::filesystem::path& name, int node,
+                              std::size_t clips) {
   const GltfFile file = open_gltf_bytes(glb, name);
-  return read_mesh(*file, choose_mesh_node(*file, {.node = node}, Ambiguity::TakeFirst), clip);
+  return read_mesh(*file, choose_mesh_node(*file, {.node = node}, Ambiguity::TakeFirst), clips);
 }
 
 Eigen::VectorXd interpolate_keys(const std::vector<float>& times, const Eigen::MatrixXf& weights,

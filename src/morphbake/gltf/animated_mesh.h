@@ -60,13 +60,20 @@ struct AnimatedMesh {
 AnimatedMesh read_animated_mesh(const std::filesystem::path& file, const MeshChoice& choice = {});
 AnimatedMesh read_animated_mesh(const GltfFile& file, const MeshChoice& choice = {});
 
+/// What write_morph_glb() wrote.
+struct WrittenMesh {
+  AnimatedMesh mesh;                  ///< with the last clip's weights
+  std::vector<AnimationCurve> clips;  ///< one number a target; one at least: the weights at rest
+};
+
 /// Reads back what write_morph_glb() wrote, as read_animated_mesh() does. Its size is that of what
 /// was asked for: the limits for files of others do not hold.
 ///
 /// @param name  what messages call it
-/// @param clip  whether the last animation is what is shown, else the weights at rest
-AnimatedMesh read_written_mesh(const std::string& glb, const std::filesystem::path& name, int node,
-                               bool clip);
+/// @param clips  how many animations at the end are its own; without any it shows the weights at
+///               rest
+WrittenMesh read_written_mesh(const std::string& glb, const std::filesystem::path& name, int node,
+                              std::size_t clips);
 
 /// Weights at `time`: linear between keys, constant before the first and after the last.
 ///

@@ -10,6 +10,7 @@
 #include "morphbake/gltf/media_type.h"
 #include "morphbake/gltf/packed_parts.h"
 #include "morphbake/gltf/uri.h"
+#include "morphbake/images/images.h"
 
 namespace morphbake {
 namespace {
@@ -19,9 +20,6 @@ struct Resource {
   Bytes bytes;
   std::string media_type;  ///< that a data URI says
 };
-
-// Encoded: pixels are bounded elsewhere. While it is read, a file is held twice.
-constexpr std::size_t kMostImageBytes = std::size_t{1} << 28;
 
 /// What is read of a file.
 struct Extent {

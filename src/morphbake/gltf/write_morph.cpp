@@ -48,18 +48,17 @@ void embed_images(const GltfDocument& document, GlbDraft& draft) {
   }
 }
 
-/// The timeline: own targets stay at rest.
-void append_animation(MorphWriting& writing) {
-  const MeshMorph& morph = writing.morph;
+/// A part of the timeline: own targets stay at rest.
+void append_animation(MorphWriting& writing, const MorphClip& clip) {
   const auto own = static_cast<Eigen::Index>(writing.own_targets);
   Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> weights(
-      morph.key_weights.rows(), own + morph.key_weights.cols());
+      clip.key_weights.rows(), own + clip.key_weights.cols());
   weights.leftCols(own).rowwise() = own_weights(writing).transpose().cast<float>();
-  weights.rightCols(morph.key_weights.cols()) = morph.key_weights;
-  const int input = append_scalars(writing.draft, morph.key_times, true);
+  weights.rightCols(clip.key_weights.cols()) = clip.key_weights;
+  const int input = append_scalars(writing.draft, clip.key_times, true);
   const int output = append_scalars(
       writing.draft, std::vector<float>(weights.data(), weights.data() + weights.size()), false);
-  const Json target = {{"node", morph.node}, {"path", "weights"}};
+  const Json target = {{"node", writing.morph.node}, {"path", "weights"}};
   const Json sampler = {{"input", input}, {"output", output}, {"interpolation", "LINEAR"}};
   const Json channel = {{"sampler", 0}, {"target", target}};
   Json& animations = writing.draft.json["animations"];
@@ -68,7 +67,7 @@ void append_animation(MorphWriting& writing) {
     const auto name = animation.find("name");
     if (name != animation.end() && name->is_string()) taken.insert(name->get<std::string>());
   }
-  animations.push_back({{"name", free_name(morph.animation_name, taken)},
+  animations.push_back({{"name", free_name(clip.name, taken)},
                         {"samplers", Json::array({sampler})},
                         {"channels", Json::array({channel})}});
 }
@@ -93,7 +92,7 @@ Eigen::VectorXd own_weights(const MorphWriting& writing) {
 }
 
 std::vector<float> first_weights(const MeshMorph& morph) {
-  const Eigen::VectorXf row = morph.key_weights.row(0);
+  const Eigen::VectorXf row = morph.clips.front().key_weights.row(0);
   return {row.data(), row.data() + row.size()};
 }
 
@@ -123,7 +122,7 @@ std::string write_morph_glb(const GltfFile& source, const MeshMorph& morph,
   if (!morph.target_names.empty()) {
     extend_animations(writing);
     place_targets(writing);
-    append_animation(writing);
+    for (const MorphClip& clip : morph.clips) append_animation(writing, clip);
   }
   remove_leftovers(draft);
   return glb_bytes(draft);

@@ -19,7 +19,14 @@ struct PrimitiveMorph {
   std::vector<bool> is_used = {};
 };
 
-/// What is added to a mesh: targets and one animation of their weights.
+/// An animation of the weights.
+struct MorphClip {
+  std::string name;
+  std::vector<float> key_times;  ///< seconds, rising strictly, the first is 0
+  Eigen::MatrixXf key_weights;   ///< #keys by #targets, in [0, 1]
+};
+
+/// What is added to a mesh: targets and animations of their weights.
 struct MeshMorph {
   int node = 0;
   int mesh = 0;
@@ -27,18 +34,17 @@ struct MeshMorph {
   bool drops_skin = false;                 ///< the base shape is posed, in the node's own space
   std::vector<PrimitiveMorph> primitives;  ///< one a primitive of the mesh
   std::vector<std::string> target_names;   ///< unique, non-empty; as wished
-  std::string animation_name;
-  std::vector<float> key_times;  ///< seconds, rising strictly, the first is 0; empty: no animation
-  Eigen::MatrixXf key_weights;   ///< #keys by #targets, in [0, 1]
+  std::vector<MorphClip> clips;            ///< one at least where there are targets
 };
 
 /// The bytes of a .glb: everything of `source`, and the morph.
 ///
-/// Targets and animation are appended; a name that the file has already gets a number behind it.
+/// Targets and animations are appended; a name that the file has already gets a number behind it.
 /// The mesh's own targets and all animations of their weights stay; where new targets are, those
-/// get the weights of the first key. A new base shape takes the place of the old one as floats.
-/// Buffers become the binary chunk, without the bytes of what was replaced; images outside the file
-/// are taken into it. Where the skin is dropped, the node gets a mesh of its own if others pose it.
+/// get the weights of the first clip's first key. A new base shape takes the place of the old one
+/// as floats. Buffers become the binary chunk, without the bytes of what was replaced; images
+/// outside the file are taken into it. Where the skin is dropped, the node gets a mesh of its own
+/// if others pose it.
 /// @throws BakeError "output.too-large", "gltf.singular-transform"; "gltf.too-large" and those of
 ///         reading for animations that cannot be
 std::string write_morph_glb(const GltfFile& source, const MeshMorph& morph,

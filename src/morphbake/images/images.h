@@ -15,6 +15,10 @@ struct Image {
   std::vector<std::uint8_t> rgb;  ///< width * height * 3
 };
 
+/// Of an encoded image. Its pixels are bounded by decode_image; while a file is read it is held
+/// twice.
+constexpr std::size_t kMostImageBytes = std::size_t{1} << 28;
+
 /// Decodes PNG or JPEG bytes; alpha, orientation tags and colour profiles are ignored
 /// (glTF 2.0, 3.8).
 ///

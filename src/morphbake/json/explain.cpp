@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include <regex>
+#include <sstream>
 #include <utility>
 
 #include "morphbake/json/nearest.h"
@@ -85,6 +86,25 @@ bool fits_as_string(const std::string& text, const Json& target) {
          std::regex_search(text, std::regex(pattern->get<std::string>()));
 }
 
+/// Adds the name that may have been meant.
+void suggest(Walk& walk, const Json& value, const std::vector<std::string>& names) {
+  const std::string nearest =
+      value.is_string() ? nearest_name(value.get<std::string>(), names) : "";
+  if (!nearest.empty()) {
+    walk.problems.back().hint = fmt::format("did you mean \"{}\"?", nearest);
+  }
+}
+
+/// The words of a pattern "^(one|two)$", which stands for an enum where a list may stand as well.
+std::vector<std::string> words_of(const Json& target) {
+  std::vector<std::string> words;
+  const auto pattern = target.value("pattern", std::string());
+  if (!pattern.starts_with("^(") || !pattern.ends_with(")$")) return words;
+  std::istringstream alternatives(pattern.substr(2, pattern.size() - 4));
+  for (std::string word; std::getline(alternatives, word, '|');) words.push_back(word);
+  return words;
+}
+
 /// const and enum; true when the value is one of those.
 bool check_choice(Walk& walk, const Place& at) {
   const Json& target = at.field.target;
@@ -101,11 +121,7 @@ bool check_choice(Walk& walk, const Place& at) {
     if (choice.is_string()) names.push_back(choice.get<std::string>());
   }
   complain_not_wanted(walk, at, at.value.is_string() ? ".bad-value" : ".wrong-type");
-  const std::string nearest =
-      at.value.is_string() ? nearest_name(at.value.get<std::string>(), names) : "";
-  if (!nearest.empty()) {
-    walk.problems.back().hint = fmt::format("did you mean \"{}\"?", nearest);
-  }
+  suggest(walk, at.value, names);
   return false;
 }
 
@@ -228,6 +244,7 @@ void check(Walk& walk, const Place& place) {
   if (at.value.is_number()) check_number(walk, at);
   if (at.value.is_string() && !fits_as_string(at.value.get<std::string>(), target)) {
     complain_not_wanted(walk, at, ".bad-value");
+    suggest(walk, at.value, words_of(target));
   }
   if (at.value.is_array()) check_array(walk, at);
   if (at.value.is_object()) check_object(walk, at);

@@ -21,6 +21,15 @@ Eigen::VectorXd triangle_areas(const Positions& positions, const Triangles& tria
   return areas;
 }
 
+std::vector<int> triangles_with_area(const Positions& positions, const Triangles& triangles) {
+  std::vector<int> proper;
+  for (int f = 0; f < triangles.rows(); ++f) {
+    const auto corner = [&](int k) -> Eigen::RowVector3d { return positions.row(triangles(f, k)); };
+    if ((corner(1) - corner(0)).cross(corner(2) - corner(0)).norm() > 0) proper.push_back(f);
+  }
+  return proper;
+}
+
 Eigen::VectorXd vertex_areas(const Positions& positions, const Triangles& triangles) {
   const Eigen::VectorXd thirds = triangle_areas(positions, triangles) / 3;
   Eigen::VectorXd areas = Eigen::VectorXd::Zero(positions.rows());

@@ -9,6 +9,9 @@ namespace morphbake {
 /// Length of the diagonal of the axis-aligned bounding box; 0 for no points.
 double bounding_diagonal(const Positions& positions);
 
+/// Triangles that have an area, rising.
+std::vector<int> triangles_with_area(const Positions& positions, const Triangles& triangles);
+
 /// A third of the areas of the adjacent triangles, one a vertex.
 Eigen::VectorXd vertex_areas(const Positions& positions, const Triangles& triangles);
 

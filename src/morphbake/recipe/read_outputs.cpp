@@ -24,6 +24,30 @@ Still read_still(Reading& reading, const Json& at, const std::string& pointer) {
   return {time};
 }
 
+/// All of the timeline by the recipe's name, or parts of it by names of their own.
+std::vector<Clip> read_clips(Reading& reading, const Json& output, const std::string& pointer) {
+  const double duration = reading.recipe.timeline.duration;
+  if (!output.contains("clips")) return {{reading.recipe.name, 0, duration}};
+  std::vector<Clip> clips;
+  for (const auto& [name, json] : output["clips"].items()) {
+    const std::string at = child_pointer(pointer + "/clips", name);
+    const Clip clip{name, json["begin"].get<double>(), json["end"].get<double>()};
+    if (clip.end <= clip.begin) {
+      complain(
+          reading, "recipe.out-of-range", at + "/end",
+          fmt::format("this clip ends at {} s, before it has begun at {} s", clip.end, clip.begin),
+          "a clip lasts a while");
+    }
+    if (clip.end > duration && duration > 0) {
+      complain(reading, "recipe.out-of-range", at + "/end",
+               fmt::format("{} s is after the end of the timeline, at {} s", clip.end, duration),
+               "");
+    }
+    clips.push_back(clip);
+  }
+  return clips;
+}
+
 NormalBounds read_normal_bounds(const Json& output) {
   const Json json = output.value("max_normal_error", Json());
   NormalBounds bounds;
@@ -43,13 +67,18 @@ Output read_output(Reading& reading, const Json& json, const std::string& pointe
              "outputs are written below the recipe's folder; --output-dir chooses another one");
   }
   if (json.value("targets", "") == "frames") output.targets = TargetKind::Frames;
+  if (json.value("targets", "") == "tracks") output.targets = TargetKind::Tracks;
   output.max_normal_error = read_normal_bounds(json);
   output.unmet_is_error = json.value("unmet", "") != "warning";
-  if (!json.contains("still")) return output;
+  if (!json.contains("still")) {
+    output.clips = read_clips(reading, json, pointer);
+    return output;
+  }
   output.still = read_still(reading, json["still"]["at"], pointer + "/still/at");
-  if (json.contains("targets")) {
-    complain(reading, "recipe.conflicting-fields", pointer + "/targets",
-             "\"still\" and \"targets\" exclude each other",
+  for (const char* field : {"targets", "clips"}) {
+    if (!json.contains(field)) continue;
+    complain(reading, "recipe.conflicting-fields", child_pointer(pointer, field),
+             fmt::format("\"still\" and \"{}\" exclude each other", field),
              "a still is a plain mesh without morph targets: keep one of them");
   }
   return output;
@@ -70,6 +99,24 @@ std::vector<PreviewFormat> read_formats(Reading& reading, const Json& json) {
   return formats;
 }
 
+std::vector<MapKind> read_maps(Reading& reading, const Json& preview) {
+  std::vector<MapKind> maps;
+  const Json json = preview.value("maps", Json::array());
+  for (std::size_t i = 0; i < json.size(); ++i) {
+    const auto kind = json[i] == "regions" ? MapKind::Regions : MapKind::Mix;
+    if (std::find(maps.begin(), maps.end(), kind) != maps.end()) {
+      complain(reading, "recipe.bad-value", child_pointer("/preview/maps", i),
+               fmt::format("maps lists {} twice", shown(json[i])), "remove one of them");
+    }
+    if (kind == MapKind::Regions && reading.recipe.regions.empty()) {
+      complain(reading, "recipe.missing-field", child_pointer("/preview/maps", i),
+               "there is no region to draw", "add \"regions\", or remove the map");
+    }
+    maps.push_back(kind);
+  }
+  return maps;
+}
+
 bool same_file(const fs::path& a, const fs::path& b) {
   std::error_code error;
   if (a.lexically_normal() == b.lexically_normal()) return true;
@@ -83,11 +130,8 @@ std::string output_pointer(std::size_t index) { return child_pointer("/outputs",
 void check_output_files(const Recipe& recipe, std::vector<Problem>& problems) {
   const auto complain_at = [&](std::size_t i, const char* code, std::string message,
                                const char* hint) {
-    problems.push_back({Severity::Error,
-                        code,
-                        {recipe.file.string(), output_pointer(i)},
-                        std::move(message),
-                        hint});
+    problems.push_back(
+        {Severity::Error, code, location_in(recipe, output_pointer(i)), std::move(message), hint});
   };
   for (std::size_t i = 0; i < recipe.outputs.size(); ++i) {
     const fs::path& file = recipe.outputs[i].file;
@@ -130,6 +174,7 @@ void read_preview(Reading& reading) {
   }
   if (turntable.contains("frames")) preview.frames = whole_number(turntable["frames"]);
   preview.formats = read_formats(reading, json->value("formats", Json::array({"gif", "sheet"})));
+  preview.maps = read_maps(reading, *json);
   const double pixels = 1.0 * preview.width * preview.height * preview.frames;
   if (pixels > preview_pixel_limit) {
     complain(reading, "recipe.out-of-range", "/preview/turntable",

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "morphbake/json/schema.h"
+#include "morphbake/recipe/includes.h"
 #include "morphbake/recipe/reading.h"
 
 namespace morphbake {
@@ -52,6 +53,22 @@ void throw_problems(std::vector<Problem> problems) {
   throw BakeError(std::move(problems));
 }
 
+/// Gives all shares three columns where any has them.
+void harmonise_axes(Recipe& recipe) {
+  std::vector<Shares*> all = {&recipe.timeline.start};
+  for (Track& track : recipe.timeline.tracks) all.push_back(&track.edit.to);
+  for (State& state : recipe.states) {
+    all.push_back(&state.mix);
+    for (Edit& edit : state.edits) all.push_back(&edit.to);
+  }
+  const bool any =
+      std::any_of(all.begin(), all.end(), [](const Shares* s) { return s->cols() > 1; });
+  if (!any) return;
+  for (Shares* shares : all) {
+    if (shares->cols() == 1) *shares = shares->replicate(1, 3).eval();
+  }
+}
+
 void read_parts(Reading& reading) {
   const Json& document = reading.document;
   reading.recipe.name = document["name"].get<std::string>();
@@ -61,8 +78,10 @@ void read_parts(Reading& reading) {
   read_sources(reading);
   read_connectivity(reading);
   read_regions(reading);
+  read_derived(reading);
   read_states(reading);
   read_timeline(reading);
+  harmonise_axes(reading.recipe);
   read_constraints(reading);
   read_outputs(reading);
   read_preview(reading);
@@ -71,12 +90,16 @@ void read_parts(Reading& reading) {
 }  // namespace
 
 Recipe read_recipe(const std::filesystem::path& file) {
-  const Json document = read_json(file, file.string());
+  const auto [document, parts] = read_with_includes(file);
   std::vector<Problem> problems =
       schema_problems(document, shipped_schema("recipe.schema.json"), {file.string(), ""});
+  for (Problem& problem : problems) {
+    problem.location.file = written_in(parts, problem.location.pointer).string();
+  }
   if (!is_readable(problems)) throw_problems(problems);
   Reading reading{document, std::filesystem::absolute(file).parent_path(), {}, {}, {}};
   reading.recipe.file = file;
+  reading.recipe.parts = parts;
   read_parts(reading);
   add_unexplained(problems, reading.problems);
   throw_problems(std::move(problems));

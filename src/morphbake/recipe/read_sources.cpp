@@ -53,8 +53,14 @@ bool check_exists(Reading& reading, const fs::path& file, const Json& as_written
   return false;
 }
 
-fs::path absolute_file(const Reading& reading, const Json& as_written) {
-  return (reading.folder / fs::path(as_written.get<std::string>())).lexically_normal();
+/// The folder of the file that wrote what stands at `pointer`, as messages call it.
+fs::path folder_at(const Reading& reading, const std::string& pointer) {
+  return written_in(reading.recipe.parts, pointer).parent_path();
+}
+
+fs::path absolute_file(const Reading& reading, const Json& as_written, const std::string& pointer) {
+  const fs::path name = as_written.get<std::string>();
+  return fs::absolute(folder_at(reading, pointer) / name).lexically_normal();
 }
 
 /// The landmarks of a file, or none after its problems were noted.
@@ -70,36 +76,38 @@ std::vector<Landmark> try_landmarks(Reading& reading, const fs::path& file,
   }
 }
 
-/// What messages call a file that stands as `name` in the recipe.
-std::string beside_recipe(const Reading& reading, const fs::path& name) {
-  return (reading.recipe.file.parent_path() / name).lexically_normal().string();
+/// What messages call a file that stands as `name` at `pointer`.
+std::string beside_recipe(const Reading& reading, const fs::path& name,
+                          const std::string& pointer) {
+  return (folder_at(reading, pointer) / name).lexically_normal().string();
 }
 
 /// Fills in the landmarks of a source and where they stand.
 void read_source_landmarks(Reading& reading, const Json& source, const std::string& pointer,
                            SourceRef& ref) {
   const Json& file = source.is_object() ? source["file"] : source;
-  ref.landmarks_at = {reading.recipe.file.string(), pointer};  // where none are, some could be
+  ref.landmarks_at = location_in(reading.recipe, pointer);  // where none are, some could be
   if (source.is_object() && source.contains("landmarks")) {
     const Json& landmarks = source["landmarks"];
     if (landmarks.is_object()) {
-      ref.landmarks_at = {reading.recipe.file.string(), pointer + "/landmarks"};
+      ref.landmarks_at = location_in(reading.recipe, pointer + "/landmarks");
       ref.landmarks = landmarks_of(landmarks, ref.landmarks_at, reading.problems);
       return;
     }
-    const fs::path named = absolute_file(reading, landmarks);
+    const fs::path named = absolute_file(reading, landmarks, pointer);
     if (!check_exists(reading, named, landmarks, pointer + "/landmarks")) {
       reading.landmarks_known.back() = false;
       return;
     }
-    ref.landmarks_at = {beside_recipe(reading, landmarks.get<std::string>()), "/landmarks"};
+    ref.landmarks_at = {beside_recipe(reading, landmarks.get<std::string>(), pointer),
+                        "/landmarks"};
     ref.landmarks = try_landmarks(reading, named, ref.landmarks_at.file);
     return;
   }
-  const fs::path beside = landmarks_beside(absolute_file(reading, file));
+  const fs::path beside = landmarks_beside(absolute_file(reading, file, pointer));
   std::error_code error;
   if (!fs::is_regular_file(beside, error)) return;
-  ref.landmarks_at = {beside_recipe(reading, landmarks_beside(file.get<std::string>())),
+  ref.landmarks_at = {beside_recipe(reading, landmarks_beside(file.get<std::string>()), pointer),
                       "/landmarks"};
   ref.landmarks = try_landmarks(reading, beside, ref.landmarks_at.file);
 }
@@ -122,13 +130,6 @@ void read_align(Reading& reading, const Json& source, const std::string& pointer
            "leave it out here, and write it at the sources that shall move");
 }
 
-NameOrIndex name_or_index(const Json& owner, const char* field) {
-  if (!owner.contains(field)) return {};
-  const Json& value = owner[field];
-  if (value.is_string()) return value.get<std::string>();
-  return value.get<int>();
-}
-
 /// Which mesh of the file, and in which shape.
 void read_choice(Reading& reading, const Json& source, const std::string& pointer,
                  MeshChoice& choice) {
@@ -146,23 +147,63 @@ void read_choice(Reading& reading, const Json& source, const std::string& pointe
 
 }  // namespace
 
+std::filesystem::path existing_file(Reading& reading, const Json& as_written,
+                                    const std::string& pointer) {
+  fs::path file = absolute_file(reading, as_written, pointer);
+  check_exists(reading, file, as_written, pointer);
+  return file;
+}
+
+namespace {
+
+void read_file_source(Reading& reading, const std::string& name, const Json& source) {
+  const std::string pointer = child_pointer("/sources", name);
+  reading.landmarks_known.push_back(true);
+  const bool is_object = source.is_object();
+  const Json& file = is_object ? source["file"] : source;
+  SourceRef ref;
+  ref.name = name;
+  ref.file = existing_file(reading, file, is_object ? pointer + "/file" : pointer);
+  if (is_object) read_choice(reading, source, pointer, ref.choice);
+  read_source_landmarks(reading, source, pointer, ref);
+  read_align(reading, source, pointer, ref);
+  reading.recipe.sources.push_back(std::move(ref));
+  reading.shapes.push_back({name});
+}
+
+/// What only a file has.
+void check_derived_fields(Reading& reading, const Json& source, const std::string& pointer) {
+  for (const char* field : {"landmarks", "align", "node", "mesh", "target", "animation"}) {
+    if (!source.contains(field)) continue;
+    complain(reading, "recipe.conflicting-fields", child_pointer(pointer, field),
+             fmt::format("a source that is made from another has no \"{}\" of its own", field),
+             "write it at the source with the file");
+  }
+}
+
+}  // namespace
+
 void read_sources(Reading& reading) {
+  std::vector<std::string> derived;
   for (const auto& [name, source] : reading.document["sources"].items()) {
     const std::string pointer = child_pointer("/sources", name);
     check_name_length(reading, name, pointer);
-    reading.landmarks_known.push_back(true);
-    const bool is_object = source.is_object();
-    const Json& file = is_object ? source["file"] : source;
-    check_exists(reading, absolute_file(reading, file), file,
-                 is_object ? pointer + "/file" : pointer);
-    SourceRef ref;
-    ref.name = name;
-    ref.file = absolute_file(reading, file);
-    if (is_object) read_choice(reading, source, pointer, ref.choice);
-    read_source_landmarks(reading, source, pointer, ref);
-    read_align(reading, source, pointer, ref);
-    reading.recipe.sources.push_back(std::move(ref));
+    if (is_derived(reading, source, pointer)) {
+      check_derived_fields(reading, source, pointer);
+      derived.push_back(name);
+    } else if (source.is_string() || source.contains("file")) {
+      read_file_source(reading, name, source);
+    }
   }
+  if (reading.recipe.sources.empty()) {
+    complain(reading, "recipe.missing-field", "/sources", "no source has a file",
+             "other sources are made from one that has");
+    // What follows needs a first source.
+    reading.landmarks_known.push_back(false);
+    reading.recipe.sources.push_back({});
+    reading.shapes.push_back({});
+  }
+  name_derived(reading, derived);
 }
 
 }  // namespace morphbake

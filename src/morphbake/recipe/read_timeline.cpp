@@ -49,9 +49,7 @@ Track read_track(Reading& reading, const Json& json, const std::string& pointer)
   Track track;
   track.name = track_name(reading, json, pointer);
   check_track_name(reading, track.name, json, pointer);
-  track.edit.region = read_region_field(reading, json, pointer);
-  track.edit.to = read_shares(reading, json["to"], pointer + "/to");
-  track.edit.amount = json.value("amount", track.edit.amount);
+  track.edit = read_edit(reading, json, pointer);
   if (json.contains("ease")) track.ease = ease_of(json["ease"]);
   check_end_or_duration(reading, json, pointer);
   return track;
@@ -220,10 +218,9 @@ void read_timeline(Reading& reading) {
   const Json& json = reading.document["timeline"];
   Timeline& timeline = reading.recipe.timeline;
   timeline.frames_per_second = json.value("fps", timeline.frames_per_second);
-  timeline.start.assign(reading.recipe.sources.size(), 0.0);
-  timeline.start.front() = 1;
+  timeline.start = pure_share(reading, 0);
   if (json.contains("start")) {
-    timeline.start = read_shares(reading, json["start"], "/timeline/start");
+    timeline.start = read_shares(reading, json["start"], false, "/timeline/start");
   }
   if (json.contains("tracks") == json.contains("keys")) {
     const bool both = json.contains("keys");

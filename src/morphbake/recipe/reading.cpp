@@ -41,10 +41,8 @@ struct CycleSearch {
 
 void complain(Reading& reading, std::string code, const std::string& pointer, std::string message,
               std::string hint) {
-  reading.problems.push_back({Severity::Error,
-                              std::move(code),
-                              {reading.recipe.file.string(), pointer},
-                              std::move(message),
+  reading.problems.push_back({Severity::Error, std::move(code),
+                              location_in(reading.recipe, pointer), std::move(message),
                               std::move(hint)});
 }
 
@@ -53,9 +51,38 @@ bool wants_hints(const Reading& reading) { return reading.problems.size() < hint
 void complain_unknown(Reading& reading, const std::vector<std::string>& names,
                       std::string_view kind, const Json& name, const std::string& pointer) {
   const bool hinted = wants_hints(reading);
+  const Json& sources = reading.document.at("sources");
+  const auto written = sources.find(name.get<std::string>());
+  const bool is_derived =
+      written != sources.end() && written->is_object() && !written->contains("file");
+  if (kind == "source" && is_derived) {
+    complain(reading, "recipe.unknown-name", pointer,
+             fmt::format("{} is made from another source: it has no file and no points of its own",
+                         shown(name)),
+             name_hint("", names, "sources with a file"));
+    return;
+  }
   complain(reading, "recipe.unknown-name", pointer,
            fmt::format("there is no {} {}", kind, shown(name)),
            hinted ? name_hint(name.get<std::string>(), names, fmt::format("{}s", kind)) : "");
+}
+
+void check_one_of(Reading& reading, const Json& json, const std::vector<const char*>& fields,
+                  const char* what, const std::string& pointer) {
+  std::vector<std::string> given;
+  std::string all;
+  for (const char* field : fields) {
+    if (json.contains(field)) given.emplace_back(field);
+    all += (all.empty() ? "" : ", ") + std::string(field);
+  }
+  if (given.size() > 1) {
+    complain(reading, "recipe.conflicting-fields", pointer,
+             fmt::format("\"{}\" and \"{}\" exclude each other", given[0], given[1]),
+             fmt::format("give one {}", what));
+  } else if (given.empty()) {
+    complain(reading, "recipe.missing-field", pointer, fmt::format("there is no {}", what),
+             fmt::format("give one of {}", all));
+  }
 }
 
 void check_name_length(Reading& reading, const std::string& name, const std::string& pointer) {
@@ -74,7 +101,12 @@ int read_region_field(Reading& reading, const Json& parent, const std::string& p
   return look_up(reading, reading.recipe.regions, "region", *region, pointer + "/region");
 }
 
-Ease ease_of(const Json& name) {
+Easing ease_of(const Json& name) {
+  if (name.is_array()) {
+    Easing easing(Ease::Bezier);
+    for (std::size_t k = 0; k < 4; ++k) easing.control[k] = name[k].get<double>();
+    return easing;
+  }
   if (name == "linear") return Ease::Linear;
   if (name == "step") return Ease::Step;
   if (name == "cubic") return Ease::Cubic;
@@ -89,9 +121,19 @@ std::vector<std::vector<int>> find_cycles(const std::vector<std::vector<int>>& e
   return search.cycles;
 }
 
-/// A whole number; one that is out of range, which the schema has reported, must not overflow.
 int whole_number(const Json& json) {
-  return static_cast<int>(std::clamp(json.get<double>(), 0.0, 1e6));
+  return static_cast<int>(std::clamp(json.get<double>(), 0.0, 1e8));
+}
+
+int whole_number(const Json& owner, const char* field) {
+  return owner.contains(field) ? whole_number(owner[field]) : 0;
+}
+
+NameOrIndex name_or_index(const Json& owner, const char* field) {
+  if (!owner.contains(field)) return {};
+  const Json& value = owner[field];
+  if (value.is_string()) return value.get<std::string>();
+  return whole_number(value);
 }
 
 }  // namespace morphbake

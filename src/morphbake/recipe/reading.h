@@ -13,6 +13,11 @@
 
 namespace morphbake {
 
+/// What shares may name: a source, with a file or derived from another.
+struct ShapeName {
+  std::string name;
+};
+
 /// What the parts of read_recipe share while they read one document.
 ///
 /// The document has the schema's types and required fields, so the parts only look at what a schema
@@ -24,6 +29,7 @@ struct Reading {
   std::vector<bool>
       landmarks_known;  ///< one a source: false when its landmark file could not be read
   std::vector<Problem> problems;
+  std::vector<ShapeName> shapes = {};  ///< sources with a file, then derived ones
 };
 
 /// Adds an error at `pointer` of the recipe.
@@ -69,11 +75,26 @@ int look_up(Reading& reading, const std::vector<Named>& all, std::string_view ki
   return index;
 }
 
+/// Complains unless exactly one of `fields` is given.
+///
+/// @param what  the fields are, in the singular: "kind of region"
+void check_one_of(Reading& reading, const Json& json, const std::vector<const char*>& fields,
+                  const char* what, const std::string& pointer);
+
 /// A name as the key of an object: complains when it is longer than importers take (63 bytes).
 void check_name_length(Reading& reading, const std::string& name, const std::string& pointer);
 
-/// A source's name or an object of shares.
-Shares read_shares(Reading& reading, const Json& shares, const std::string& pointer);
+/// One shape alone, or none for -1: #shapes.
+Eigen::VectorXd pure_share(const Reading& reading, int shape);
+
+/// A source's name, an object of shares, or three of these for x, y and z.
+///
+/// @param extrapolates  whether shares may lie beyond 0 and 1
+Shares read_shares(Reading& reading, const Json& shares, bool extrapolates,
+                   const std::string& pointer);
+
+/// What a track or an edit changes.
+Edit read_edit(Reading& reading, const Json& json, const std::string& pointer);
 
 /// The region that `parent` names in its field "region", or -1 (the whole surface).
 int read_region_field(Reading& reading, const Json& parent, const std::string& pointer);
@@ -81,7 +102,18 @@ int read_region_field(Reading& reading, const Json& parent, const std::string& p
 /// A whole number; one that is out of range, which the schema has reported, must not overflow.
 int whole_number(const Json& json);
 
-Ease ease_of(const Json& name);
+/// The whole number in a field of `owner`; 0 where it is missing.
+int whole_number(const Json& owner, const char* field);
+
+/// The name or index in a field of `owner`, or no choice.
+NameOrIndex name_or_index(const Json& owner, const char* field);
+
+/// The absolute file that `as_written` names; complains when there is none.
+std::filesystem::path existing_file(Reading& reading, const Json& as_written,
+                                    const std::string& pointer);
+
+/// A named curve, or the four numbers of a Bezier curve.
+Easing ease_of(const Json& name);
 
 /// Index of the state called `name`; a source of that name becomes a state of its own. -1 after a
 /// complaint.
@@ -98,9 +130,16 @@ std::vector<std::vector<int>> find_cycles(const std::vector<std::vector<int>>& e
 /// @param source  index, or -1 after a complaint about it
 Place read_place(Reading& reading, const Json& at, int source, const std::string& pointer);
 
+/// Whether a source of the recipe is made from another; complains unless it is given in one way.
+bool is_derived(Reading& reading, const Json& source, const std::string& pointer);
+
+/// Makes shapes of the derived sources called `names`, each after what it is made from.
+void name_derived(Reading& reading, const std::vector<std::string>& names);
+
 void read_sources(Reading& reading);
 void read_connectivity(Reading& reading);
 void read_regions(Reading& reading);
+void read_derived(Reading& reading);
 void read_states(Reading& reading);
 void read_timeline(Reading& reading);
 void read_constraints(Reading& reading);

@@ -1,20 +1,26 @@
 #pragma once
 
+#include <Eigen/Core>
+#include <array>
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <variant>
 #include <vector>
 
 #include "morphbake/diagnostics/problem.h"
 #include "morphbake/gltf/mesh_choice.h"
+#include "morphbake/recipe/derived_source.h"
 #include "morphbake/recipe/landmark.h"
+#include "morphbake/recipe/region.h"
 
 namespace morphbake {
 
-/// Shares of the sources in a mix, one a source in the recipe's order. Sum 1, each in [0, 1].
-using Shares = std::vector<double>;
+/// Shares of the sources in a mix: #sources by 1, or by 3 (x, y, z) in a recipe that has shares an
+/// axis. Columns sum to 1; each share is in [0, 1] unless the recipe extrapolates.
+using Shares = Eigen::MatrixXd;
 
 /// How a source is moved onto the first one before anything else.
 enum class Align { None, Translation, Rigid, Similarity, Affine };
@@ -50,35 +56,30 @@ struct ConnectivityRequest {
 /// How lengths in a recipe are meant.
 enum class Units { Diagonal, Scene };
 
-/// How a ball measures distance on the surface.
-enum class DistanceMeasure { Geodesic, Edges };
+enum class Ease { Linear, Step, Smoothstep, Cubic, Bezier };
 
-/// d = 0 within `inner` of the centre, 1 beyond `outer`, linear between (Alexa 2003, section 5.1).
-struct BallRegion {
-  int source = 0;    ///< the surface on which it is measured
-  Place centre;      ///< on that surface
-  double inner = 0;  ///< >= 0, in `Recipe::units`
-  double outer = 0;  ///< >= inner
-  DistanceMeasure distance = DistanceMeasure::Geodesic;
+/// How a change speeds up and slows down.
+struct Easing {
+  // NOLINTNEXTLINE(google-explicit-constructor): the named curves need no more than their name
+  Easing(Ease named = Ease::Linear) : kind(named) {}
+
+  Ease kind;
+  std::array<double, 4> control = {0, 0, 1, 1};  ///< for Bezier: x1, y1, x2, y2 as in CSS
 };
 
-/// Everything outside the named regions: d = 1 - min over them.
-struct RestOfRegion {
-  std::vector<int> regions;  ///< indices of earlier or later regions, no cycle
+/// How the shape that an edit leads to is turned and scaled before.
+enum class Fit {
+  None,
+  Rotate,      ///< so that its soft ring lies on that of the start
+  Similarity,  ///< and is as large
 };
-
-struct RegionOfInterest {
-  std::string name;
-  std::variant<BallRegion, RestOfRegion> shape;
-};
-
-enum class Ease { Linear, Step, Smoothstep, Cubic };
 
 /// T' = (1 - a (1 - d)) T + a (1 - d) T~ (Alexa 2003, eq. 7, with an amount a).
 struct Edit {
   int region = -1;  ///< index; -1 is the whole surface
   Shares to;
-  double amount = 1;  ///< in [0, 1]
+  double amount = 1;  ///< in [0, 1] unless the recipe extrapolates
+  Fit fit = Fit::None;
 };
 
 /// An edit whose amount is eased from 0 to `edit.amount` between `begin` and `end`.
@@ -87,7 +88,7 @@ struct Track {
   Edit edit;
   double begin = 0;  ///< seconds
   double end = 0;    ///< seconds, >= begin
-  Ease ease = Ease::Smoothstep;
+  Easing ease = Ease::Smoothstep;
 };
 
 /// A mix of all sources with ordered local edits.
@@ -98,9 +99,9 @@ struct State {
 };
 
 struct Key {
-  double time = 0;           ///< seconds
-  int state = 0;             ///< index into Recipe::states
-  Ease ease = Ease::Linear;  ///< of the segment that ends in this key
+  double time = 0;  ///< seconds
+  int state = 0;    ///< index into Recipe::states
+  Easing ease;      ///< of the segment that ends in this key
 };
 
 /// Either keys or tracks. Starts at 0; `duration` is the last key's time or at least the last
@@ -131,7 +132,11 @@ struct Gauge {
   Place at;         ///< for Landmark and Anchor: on that source's surface
 };
 
-enum class TargetKind { Tracks, Frames };
+enum class TargetKind {
+  Auto,  ///< Tracks where fixed shapes make up the timeline, else Frames
+  Tracks,
+  Frames,
+};
 
 /// One moment or state as a plain mesh without animation.
 struct Still {
@@ -144,9 +149,17 @@ struct NormalBounds {
   std::optional<double> maximum;
 };
 
+/// A part of the timeline that is an animation of its own.
+struct Clip {
+  std::string name;
+  double begin = 0;  ///< seconds
+  double end = 0;    ///< seconds, > begin
+};
+
 struct Output {
   std::filesystem::path file;  ///< absolute, .glb
-  TargetKind targets = TargetKind::Tracks;
+  std::vector<Clip> clips;     ///< one at least, but for stills
+  TargetKind targets = TargetKind::Auto;
   std::optional<Still> still;
   NormalBounds max_normal_error;
   bool unmet_is_error = true;  ///< whether a bound that is not kept stops the bake
@@ -154,19 +167,34 @@ struct Output {
 
 enum class PreviewFormat { Png, Gif, Sheet };
 
+/// Pictures that explain a recipe instead of showing its result.
+enum class MapKind {
+  Regions,  ///< where each region is
+  Mix,      ///< which source dominates where, over the timeline
+};
+
 struct PreviewRequest {
   int width = 512;
   int height = 512;
   int frames = 72;
   std::vector<PreviewFormat> formats;
+  std::vector<MapKind> maps = {};
+};
+
+/// What one of a recipe's files wrote.
+struct RecipePart {
+  std::string pointer;         ///< in the whole recipe; "" is all that no other part has
+  std::filesystem::path file;  ///< as messages call it
 };
 
 /// A scene recipe, all names resolved to indices, all defaults filled in.
 struct Recipe {
   std::filesystem::path file;
+  std::vector<RecipePart> parts;  ///< where it is written in several files; the first is all of it
   std::string name;
   Units units = Units::Diagonal;
   std::vector<SourceRef> sources;
+  std::vector<DerivedSource> derived;  ///< shapes after those of the sources, each after its own
   ConnectivityRequest connectivity;
   std::vector<RegionOfInterest> regions;
   std::vector<State> states;
@@ -177,5 +205,12 @@ struct Recipe {
   std::optional<PreviewRequest> preview;
   std::string options = "{}";  ///< JSON text of the recipe's "options", see bake/options.h
 };
+
+/// The file that wrote what stands at `pointer`: of the longest part there, the last.
+const std::filesystem::path& written_in(const std::vector<RecipePart>& parts,
+                                        std::string_view pointer);
+
+/// Where something stands, for messages.
+Location location_in(const Recipe& recipe, std::string pointer);
 
 }  // namespace morphbake

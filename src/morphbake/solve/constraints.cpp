@@ -56,17 +56,20 @@ std::vector<bool> with_reference(const Components& components, const Eigen::Vect
 
 }  // namespace
 
-std::vector<bool> untouched_vertices(const SeparableTimeline& timeline) {
-  const Eigen::Index count = timeline.fields.front().change.cols();
-  std::vector<bool> untouched(static_cast<std::size_t>(count));
-  for (Eigen::Index v = 0; v < count; ++v) {
-    bool moves = false;
-    for (const TransitionField& field : timeline.fields) {
-      moves = moves || field.change.col(v).cwiseAbs().maxCoeff() > kUntouched;
+void UntouchedVertices::add(const Eigen::MatrixXd& change) {
+  const auto count = static_cast<Eigen::Index>(untouched_.size());
+  for (Eigen::Index column = 0; column < change.cols(); ++column) {
+    if (change.col(column).cwiseAbs().maxCoeff() > kUntouched) {
+      untouched_[static_cast<std::size_t>(column % count)] = false;
     }
-    untouched[static_cast<std::size_t>(v)] = !moves;
   }
-  return untouched;
+}
+
+std::vector<bool> untouched_vertices(const SeparableTimeline& timeline) {
+  const Eigen::Index columns = timeline.fields.front().change.cols();
+  UntouchedVertices untouched(columns / timeline.reference.cols());
+  for (const TransitionField& field : timeline.fields) untouched.add(field.change);
+  return untouched.mask();
 }
 
 Constraints choose_constraints(const MorphableMesh& mesh, const Components& components,

@@ -31,7 +31,23 @@ struct ConstraintRequest {
   int anchor = -1;                ///< vertex, -1 for none
 };
 
-/// Vertices whose shares are the timeline's reference shares at all times.
+/// Vertices whose shares are the timeline's reference shares at all times: of none of the changes
+/// from them, which are those of all fields or of all frames.
+class UntouchedVertices {
+ public:
+  explicit UntouchedVertices(Eigen::Index vertex_count)
+      : untouched_(static_cast<std::size_t>(vertex_count), true) {}
+
+  /// @param change  #sources by #V, or 3 #V as TransitionState
+  void add(const Eigen::MatrixXd& change);
+
+  const std::vector<bool>& mask() const { return untouched_; }
+
+ private:
+  std::vector<bool> untouched_;
+};
+
+/// Of a separable timeline.
 std::vector<bool> untouched_vertices(const SeparableTimeline& timeline);
 
 /// @param untouched  #V

@@ -1,5 +1,7 @@
 #include "morphbake/solve/displacement_system.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <utility>
 
@@ -23,10 +25,16 @@ void for_each_neighbour(const OneRings& rings, Eigen::Index i, const Visit& visi
 
 /// sum_s T_s V_s, vertex by vertex: what linear interpolation of positions would give.
 Positions blend_positions(const std::vector<Positions>& geometries, const Eigen::MatrixXd& shares) {
-  Positions blended = Positions::Zero(shares.cols(), 3);
+  const Eigen::Index count = geometries.front().rows();
+  const bool is_per_axis = shares.cols() > count;
+  Positions blended = Positions::Zero(count, 3);
   for (std::size_t s = 0; s < geometries.size(); ++s) {
-    const Eigen::VectorXd share = shares.row(static_cast<Eigen::Index>(s));
-    if (!share.isZero(0)) blended += share.asDiagonal() * geometries[s];
+    for (Eigen::Index axis = 0; axis < 3; ++axis) {
+      const Eigen::ArrayXd share =
+          shares.row(static_cast<Eigen::Index>(s)).segment(is_per_axis ? axis * count : 0, count);
+      if (share.isZero(0)) continue;
+      blended.col(axis).array() += share * geometries[s].col(axis).array();
+    }
   }
   return blended;
 }
@@ -45,16 +53,20 @@ Positions component_centres(const Components& components, const Positions& posit
 
 std::vector<bool> uniform_components(const Components& components, const Eigen::MatrixXd& shares) {
   std::vector<bool> uniform(static_cast<std::size_t>(components.count), true);
-  std::vector<Eigen::Index> first(static_cast<std::size_t>(components.count), -1);
-  for (Eigen::Index v = 0; v < shares.cols(); ++v) {
-    const auto component = static_cast<std::size_t>(components.label[static_cast<std::size_t>(v)]);
-    if (first[component] < 0) first[component] = v;
-    if (shares.col(v) != shares.col(first[component])) uniform[component] = false;
+  const auto count = static_cast<Eigen::Index>(components.label.size());
+  for (Eigen::Index block = 0; block < shares.cols(); block += count) {  // one, or one an axis
+    std::vector<Eigen::Index> first(static_cast<std::size_t>(components.count), -1);
+    for (Eigen::Index v = 0; v < count; ++v) {
+      const auto component =
+          static_cast<std::size_t>(components.label[static_cast<std::size_t>(v)]);
+      if (first[component] < 0) first[component] = v;
+      if (shares.col(block + v) != shares.col(block + first[component])) uniform[component] = false;
+    }
   }
   return uniform;
 }
 
-/// g_i = sum_s sum_j |T_s,i - T_s,j|: how much the shares vary around each vertex.
+/// g_i = sum_s sum_j |T_s,i - T_s,j|: how much the shares of one axis vary around each vertex.
 Eigen::VectorXd share_variation(const OneRings& rings, const Eigen::MatrixXd& shares) {
   Eigen::VectorXd variation = Eigen::VectorXd::Zero(shares.cols());
   for (Eigen::Index i = 0; i < shares.cols(); ++i) {
@@ -63,6 +75,15 @@ Eigen::VectorXd share_variation(const OneRings& rings, const Eigen::MatrixXd& sh
     });
   }
   return variation;
+}
+
+void require_finite(const Positions& displacements, const char* what, const char* hint) {
+  if (displacements.allFinite()) return;
+  throw BakeError(Problem{Severity::Error,
+                          "solve.not-finite",
+                          {},
+                          fmt::format("the {} positions are not finite numbers", what),
+                          hint});
 }
 
 }  // namespace
@@ -151,12 +172,24 @@ void DisplacementSystem::assemble() {
 /// `edge` does by itself. For `vertex` the imbalance is spread where the shares vary, or, with an
 /// anchor, thrown into its equation, as section 4.3 of the paper does by dropping it.
 void DisplacementSystem::balance(const Eigen::MatrixXd& change, Goal& goal) const {
-  Positions sums = Positions::Zero(components_.count, 3);
-  const Eigen::VectorXd variation = share_variation(rings_, change);
-  Eigen::VectorXd variations = Eigen::VectorXd::Zero(components_.count);
+  const Eigen::Index count = goal.differences.rows();
+  const bool is_per_axis = change.cols() > count;
+  Eigen::VectorXd variation;
+  for (Eigen::Index axis = 0; axis < 3; ++axis) {
+    if (axis == 0 || is_per_axis) {
+      variation = share_variation(rings_, change.middleCols(is_per_axis ? axis * count : 0, count));
+    }
+    balance_axis(variation, axis, goal);
+  }
+}
+
+void DisplacementSystem::balance_axis(const Eigen::VectorXd& variation, Eigen::Index axis,
+                                      Goal& goal) const {
+  Eigen::VectorXd sums = Eigen::VectorXd::Zero(components_.count), variations = sums;
+  auto b = goal.differences.col(axis);
   for (Eigen::Index v = 0; v < variation.size(); ++v) {
     const int component = components_.label[static_cast<std::size_t>(v)];
-    sums.row(component) += goal.differences.row(v);
+    sums(component) += b(v);
     variations(component) += variation(v);
   }
   for (Eigen::Index v = 0; v < variation.size(); ++v) {
@@ -164,10 +197,10 @@ void DisplacementSystem::balance(const Eigen::MatrixXd& change, Goal& goal) cons
     const auto c = static_cast<std::size_t>(component);
     if (component_holds_[c] || !(variations(component) > 0)) continue;
     if (constraints_.anchor[c] < 0) {
-      goal.differences.row(v) -= variation(v) / variations(component) * sums.row(component);
+      b(v) -= variation(v) / variations(component) * sums(component);
     } else if (constraints_.anchor[c] == v) {
-      goal.differences.row(v) -= sums.row(component);
-      goal.imbalance.row(component) = sums.row(component);
+      b(v) -= sums(component);
+      goal.imbalance(component, axis) = sums(component);
     }
   }
 }
@@ -177,19 +210,18 @@ Goal DisplacementSystem::goal(const Eigen::MatrixXd& change) const {
   goal.blend = blend_positions(mesh_.geometries, change);
   goal.uniform = uniform_components(components_, change);
   goal.imbalance = Positions::Zero(components_.count, 3);
-  if (!goal.blend.allFinite()) {
-    throw BakeError(Problem{Severity::Error,
-                            "solve.not-finite",
-                            {},
-                            "the blended positions are not finite numbers",
-                            "the sources' coordinates are too large for double precision"});
-  }
+  require_finite(goal.blend, "blended",
+                 "the sources' coordinates are too large for double precision");
   goal.start = goal.blend;
   if (goal.is_blend()) return goal;
-  for (Eigen::Index v = 0; v < goal.start.rows(); ++v) {
+  const Eigen::Index count = goal.start.rows(), stride = change.cols() > count ? count : 0;
+  for (Eigen::Index v = 0; v < count; ++v) {
     const int component = components_.label[static_cast<std::size_t>(v)];
     for (std::size_t s = 0; s < centres_.size(); ++s) {
-      goal.start.row(v) -= change(static_cast<Eigen::Index>(s), v) * centres_[s].row(component);
+      for (Eigen::Index axis = 0; axis < 3; ++axis) {
+        goal.start(v, axis) -=
+            change(static_cast<Eigen::Index>(s), v + axis * stride) * centres_[s](component, axis);
+      }
     }
   }
   if (rule_ == RightHandSide::Edge) {
@@ -198,6 +230,32 @@ Goal DisplacementSystem::goal(const Eigen::MatrixXd& change) const {
     goal.differences = blend_vertex_differences(rings_, mesh_.geometries, change);
     balance(change, goal);
   }
+  return goal;
+}
+
+Goal DisplacementSystem::goal_of_moves(const Positions& moves) const {
+  Goal goal;
+  goal.blend = Positions::Zero(moves.rows(), 3);
+  goal.differences = Positions::Zero(moves.rows(), 3);
+  goal.imbalance = Positions::Zero(components_.count, 3);
+  goal.uniform.assign(static_cast<std::size_t>(components_.count), true);
+  Positions first = Positions::Zero(components_.count, 3);
+  std::vector<bool> is_known(goal.uniform.size(), false);
+  for (Eigen::Index v = 0; v < moves.rows(); ++v) {
+    const auto vertex = static_cast<std::size_t>(v);
+    const auto component = static_cast<std::size_t>(components_.label[vertex]);
+    if (!constraints_.held[vertex]) continue;
+    goal.blend.row(v) = moves.row(v);
+    if (!is_known[component]) first.row(components_.label[vertex]) = moves.row(v);
+    is_known[component] = true;
+    if (moves.row(v) != first.row(components_.label[vertex])) goal.uniform[component] = false;
+  }
+  require_finite(goal.blend, "moved", "move vertices to numbers");
+  for (const int v : vertex_of_unknown_) {
+    const int component = components_.label[static_cast<std::size_t>(v)];
+    if (goal.uniform[static_cast<std::size_t>(component)]) goal.blend.row(v) = first.row(component);
+  }
+  goal.start = goal.blend;
   return goal;
 }
 

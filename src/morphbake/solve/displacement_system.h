@@ -10,10 +10,10 @@
 
 namespace morphbake {
 
-/// What one change of shares asks of the surface.
+/// What one change of shares, or a move of held vertices, asks of the surface.
 struct Goal {
   Positions differences;  ///< #V by 3: b of K_L u = b, in components with varying shares
-  Positions blend;        ///< #V by 3: sum_s dT_s V_s, vertex by vertex
+  Positions blend;        ///< #V by 3: sum_s dT_s V_s, vertex by vertex; or the moves
   Positions start;        ///< #V by 3: the blend of sources whose components share their centres
   std::vector<bool>
       uniform;          ///< one a component: all its vertices change alike, and take the blend
@@ -47,9 +47,18 @@ class DisplacementSystem {
 
   double diagonal() const { return diagonal_; }
 
-  /// @param change  dT: #sources by #V, columns sum to 0
+  /// @param change  dT: #sources by #V, or 3 #V as TransitionState; columns sum to 0
   /// @throws BakeError "solve.not-finite"
   Goal goal(const Eigen::MatrixXd& change) const;
+
+  /// Held vertices displaced as given, and nothing else asked for: minimises |L u| over the others.
+  ///
+  /// Where all held vertices of a component move alike, so do the others, exactly; a component that
+  /// holds nothing stays.
+  /// @param moves  #V by 3; rows of vertices that are not held do not matter
+  /// @throws BakeError "solve.not-finite"
+  /// @see    Alexa 2003, eq. 8
+  Goal goal_of_moves(const Positions& moves) const;
 
   /// Right-hand side minus matrix times `x`; sums of held components run in extended precision.
   ///
@@ -72,6 +81,7 @@ class DisplacementSystem {
   void number_unknowns();
   void assemble();
   void balance(const Eigen::MatrixXd& change, Goal& goal) const;
+  void balance_axis(const Eigen::VectorXd& variation, Eigen::Index axis, Goal& goal) const;
 
   const MorphableMesh& mesh_;
   OneRings rings_;

@@ -6,8 +6,11 @@ namespace morphbake {
 
 Positions reference_positions(const MorphableMesh& mesh, const Shares& shares) {
   Positions reference = Positions::Zero(mesh.connectivity.vertex_count, 3);
-  for (std::size_t s = 0; s < shares.size(); ++s) {
-    if (shares[s] != 0) reference += shares[s] * mesh.geometries[s];
+  for (std::size_t s = 0; s < mesh.geometries.size(); ++s) {
+    for (Eigen::Index axis = 0; axis < 3; ++axis) {
+      const double share = shares(static_cast<Eigen::Index>(s), shares.cols() == 1 ? 0 : axis);
+      if (share != 0) reference.col(axis) += share * mesh.geometries[s].col(axis);
+    }
   }
   return reference;
 }

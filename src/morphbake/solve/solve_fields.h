@@ -30,7 +30,7 @@ Positions reference_positions(const MorphableMesh& mesh, const Shares& shares);
 ///
 /// Components in which every vertex changes alike take the linear blend itself, which is the
 /// solution (Alexa 2003, section 5) without its rounding.
-/// @param change   #sources by #V, columns sum to 0
+/// @param change   #sources by #V, or 3 #V as TransitionState; columns sum to 0
 /// @param records  gets one more when a solve was needed
 Positions solve_change(const SurfaceSolver& solver, const Eigen::MatrixXd& change,
                        const std::string& name, std::vector<SolveRecord>& records);

@@ -10,6 +10,7 @@
 
 #include "morphbake/json/json.h"
 #include "morphbake/mesh/measures.h"
+#include "morphbake/recipe/places.h"
 #include "morphbake/sources/common_landmarks.h"
 #include "morphbake/sources/places.h"
 
@@ -103,11 +104,9 @@ Affine3d landmark_map(Align align, const LandmarkPairs& marks) {
 [[noreturn]] void refuse(const Recipe& recipe, std::size_t s, const std::string& message,
                          const std::string& hint) {
   throw BakeError(
-      Problem{Severity::Error,
-              "landmarks.cannot-align",
-              {recipe.file.string(), child_pointer("/sources", recipe.sources[s].name) + "/align"},
-              message,
-              hint});
+      Problem{Severity::Error, "landmarks.cannot-align",
+              location_in(recipe, child_pointer("/sources", recipe.sources[s].name) + "/align"),
+              message, hint});
 }
 
 /// The map of source `s` onto the first one.
@@ -149,13 +148,9 @@ void move_positions(Recipe& recipe, std::size_t s, const Affine3d& map) {
   };
   const int source = static_cast<int>(s);
   for (Landmark& landmark : recipe.sources[s].landmarks) move(landmark.at);
-  for (RegionOfInterest& region : recipe.regions) {
-    auto* ball = std::get_if<BallRegion>(&region.shape);
-    if (ball != nullptr && ball->source == source) move(ball->centre);
-  }
-  const bool has_place =
-      recipe.gauge.kind == Gauge::Kind::Landmark || recipe.gauge.kind == Gauge::Kind::Anchor;
-  if (has_place && recipe.gauge.source == source) move(recipe.gauge.at);
+  visit_places(recipe, [&](Place& place, int on, const std::string&, Whereabouts) {
+    if (on == source) move(place);
+  });
 }
 
 struct Unlikeness {
@@ -186,10 +181,8 @@ void warn_of_unlike(const Recipe& recipe, const std::vector<SourceMesh>& sources
                           recipe.sources[s].name, unlike.away, recipe.sources[0].name);
   }
   if (message.empty()) return;
-  report(observer, {Severity::Warning,
-                    "sources.unlike",
-                    {recipe.file.string(), child_pointer("/sources", recipe.sources[s].name)},
-                    message,
+  report(observer, {Severity::Warning, "sources.unlike",
+                    location_in(recipe, child_pointer("/sources", recipe.sources[s].name)), message,
                     "if that is not meant, write \"align\": \"similarity\" beside its \"file\""});
 }
 

@@ -80,14 +80,19 @@ std::vector<SurfacePoint> closest_to_positions(const Mesh& mesh,
   return closest_points(mesh, wanted.topRows(count));
 }
 
+std::string off_surface(const std::string& source, const Eigen::Vector3d& wanted,
+                        const Eigen::Vector3d& found, double share) {
+  return fmt::format(
+      "{} is {:.3g} % of the diagonal away from the surface of \"{}\"; the closest point is {}",
+      shown_point(wanted), 100 * share, source, shown_point(found));
+}
+
 void check_distance(Placement& placement, const Landmark& landmark, const SurfacePoint& point) {
   const auto& wanted = std::get<Eigen::Vector3d>(landmark.at);
   const Eigen::Vector3d found = position_of(placement.mesh, point);
   const double share = placement.diagonal > 0 ? (wanted - found).norm() / placement.diagonal : 0.0;
   if (share <= kOff) return;
-  const std::string message = fmt::format(
-      "{} is {:.3g} % of the diagonal away from the surface of \"{}\"; the closest point is {}",
-      shown_point(wanted), 100 * share, placement.source.name, shown_point(found));
+  const std::string message = off_surface(placement.source.name, wanted, found, share);
   if (share > kFar) {
     complain(placement, landmark, "landmarks.off-surface", message,
              "is this the landmark file of another mesh, or of another scale?");
@@ -202,6 +207,22 @@ Eigen::Vector3d scene_position(const SourceMesh& source, const Place& place,
   const auto& at = std::get<TrianglePlace>(place);
   return position_of({source.positions, source.triangles},
                      {at.triangle, at.barycentric / at.barycentric.sum()});
+}
+
+void check_near_surface(const SourceMesh& source, const Eigen::Vector3d& position,
+                        const Location& location) {
+  const double reach = kFar * bounding_diagonal(source.positions);
+  const auto distances = (source.positions.rowwise() - position.transpose()).rowwise().norm();
+  if (!(distances.minCoeff() > reach)) return;  // as a rule; the search below takes longer
+  const std::vector<int> proper = triangles_with_area(source.positions, source.triangles);
+  if (proper.empty()) return;
+  const Mesh surface{source.positions, source.triangles(proper, Eigen::all)};
+  const Eigen::Vector3d found = position_of(surface, closest_point(surface, position));
+  const double away = (position - found).norm();
+  if (away <= reach) return;
+  throw BakeError(Problem{Severity::Error, "landmarks.off-surface", location,
+                          off_surface(source.name, position, found, kFar * away / reach),
+                          "is this a point of another mesh, or of another scale?"});
 }
 
 std::vector<SurfacePoint> landmark_points(const SourceMesh& source, const CornerSurface& surface,

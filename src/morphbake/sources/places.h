@@ -16,6 +16,12 @@ namespace morphbake {
 Eigen::Vector3d scene_position(const SourceMesh& source, const Place& place,
                                const Location& location);
 
+/// Refuses a position that is more than 10 % of the diagonal away from the source's surface.
+///
+/// @throws BakeError "landmarks.off-surface"
+void check_near_surface(const SourceMesh& source, const Eigen::Vector3d& position,
+                        const Location& location);
+
 /// Where the landmarks of a source lie on its surface.
 ///
 /// A position is carried to the closest point of the surface, inside its triangle; vertices and

@@ -1,8 +1,23 @@
 #include "morphbake/transition/regions.h"
 
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numeric>
+#include <utility>
+
+#include "morphbake/diagnostics/problem.h"
+#include "morphbake/json/json.h"
+#include "morphbake/mesh/adjacency.h"
 #include "morphbake/mesh/closest_point.h"
 #include "morphbake/mesh/measures.h"
+#include "morphbake/transition/harmonic.h"
+#include "morphbake/transition/rings.h"
+#include "morphbake/transition/spatial.h"
 #include "morphbake/transition/surface_distance.h"
+#include "morphbake/transition/timeline.h"
 
 namespace morphbake {
 namespace {
@@ -13,55 +28,256 @@ Eigen::VectorXd soft_step(const Eigen::VectorXd& r, double inner, double outer) 
   return (r.array() > inner).cast<double>();
 }
 
-Eigen::VectorXd ball_distance(const MorphableMesh& morphable, const BallRegion& ball, Units units) {
-  const Mesh mesh{morphable.geometries[static_cast<std::size_t>(ball.source)],
-                  morphable.connectivity.triangles};
-  const SurfacePoint centre = closest_point(mesh, std::get<Eigen::Vector3d>(ball.centre));
-  const Eigen::VectorXd r = ball.distance == DistanceMeasure::Edges
-                                ? edge_distances(mesh, centre)
-                                : geodesic_distances(mesh, {centre}).front();
-  const double unit = units == Units::Scene ? 1 : bounding_diagonal(mesh.positions);
-  return soft_step(r, ball.inner * unit, ball.outer * unit);
+/// The region's pointer, of the field `kind`.
+Location location_of(const Recipe& recipe, std::size_t region, const std::string& kind) {
+  const std::string& name = recipe.regions[region].name;
+  return location_in(recipe, child_pointer("/regions", name) + "/" + kind);
 }
 
-/// Fills regions in the order in which they need one another; a recipe has no cycles.
-class RegionTable {
+/// Distances from sets of points of one source that several regions ask for.
+struct DistanceQuery {
+  std::vector<PointSet> sets;
+  std::vector<Eigen::VectorXd> answers;
+};
+
+/// What the regions of a recipe need from one source's surface.
+struct Surveyed {
+  Mesh mesh;
+  double unit = 1;          ///< scene units of 1 in the recipe's
+  DistanceQuery geodesics;  ///< of all regions: they share the factorisation
+};
+
+class RegionBuilder {
  public:
-  RegionTable(const MorphableMesh& mesh, const Recipe& recipe)
-      : mesh_(mesh), recipe_(recipe), distances_(recipe.regions.size()) {}
+  RegionBuilder(const MorphableMesh& mesh, const Recipe& recipe,
+                const std::vector<Eigen::VectorXd>& masks)
+      : mesh_(mesh), recipe_(recipe), masks_(masks), plans_(recipe.regions.size()) {}
 
-  const Eigen::VectorXd& distance(int region) {
-    Eigen::VectorXd& d = distances_[static_cast<std::size_t>(region)];
-    if (d.size() > 0) return d;
-    const auto& shape = recipe_.regions[static_cast<std::size_t>(region)].shape;
-    if (const auto* ball = std::get_if<BallRegion>(&shape)) {
-      d = ball_distance(mesh_, *ball, recipe_.units);
-    } else {
-      Eigen::VectorXd nearest = Eigen::VectorXd::Ones(mesh_.connectivity.vertex_count);
-      for (const int other : std::get<RestOfRegion>(shape).regions) {
-        nearest = nearest.cwiseMin(distance(other));
-      }
-      d = 1 - nearest.array();
+  RegionFields build() {
+    for (std::size_t r = 0; r < plans_.size(); ++r) ask(r);
+    for (auto& [source, surveyed] : surveyed_) {
+      DistanceQuery& query = surveyed.geodesics;
+      if (!query.sets.empty()) query.answers = geodesic_distances(surveyed.mesh, query.sets);
     }
-    return d;
-  }
-
-  std::vector<Eigen::VectorXd> all() {
-    for (std::size_t region = 0; region < distances_.size(); ++region)
-      distance(static_cast<int>(region));
-    return std::move(distances_);
+    RegionFields fields(plans_.size());
+    for (std::size_t r = 0; r < plans_.size(); ++r) fields[r] = field_of(r);
+    std::vector<bool> done(fields.size(), false);
+    for (std::size_t r = 0; r < fields.size(); ++r) settle_combination(fields, done, r);
+    return fields;
   }
 
  private:
+  /// Where a region's distances stand among those of its source.
+  struct Plan {
+    std::vector<std::size_t> queries;
+    std::vector<Eigen::VectorXd> along_edges;
+    Rings rings;
+  };
+
+  Surveyed& survey(int source) {
+    const auto [entry, is_new] = surveyed_.try_emplace(source);
+    if (is_new) {
+      Surveyed& made = entry->second;
+      made.mesh = {mesh_.geometries[static_cast<std::size_t>(source)],
+                   mesh_.connectivity.triangles};
+      made.unit = recipe_.units == Units::Scene ? 1 : bounding_diagonal(made.mesh.positions);
+    }
+    return entry->second;
+  }
+
+  PointSet points(int source, const std::vector<Place>& places) {
+    Positions wanted(static_cast<Eigen::Index>(places.size()), 3);
+    for (std::size_t i = 0; i < places.size(); ++i) {
+      wanted.row(static_cast<Eigen::Index>(i)) = std::get<Eigen::Vector3d>(places[i]).transpose();
+    }
+    return closest_points(survey(source).mesh, wanted);
+  }
+
+  void ask_distance(std::size_t region, int source, const PointSet& set, DistanceMeasure measure) {
+    Surveyed& surveyed = survey(source);
+    if (measure == DistanceMeasure::Geodesic) {
+      plans_[region].queries.push_back(surveyed.geodesics.sets.size());
+      surveyed.geodesics.sets.push_back(set);
+    } else if (measure == DistanceMeasure::Edges) {
+      plans_[region].along_edges.push_back(edge_distances(surveyed.mesh, set));
+    } else {
+      std::vector<int> vertices;
+      for (const SurfacePoint& at : set) vertices.push_back(nearest_corner(surveyed.mesh, at));
+      plans_[region].along_edges.push_back(hop_distances(surveyed.mesh, vertices));
+    }
+  }
+
+  void ask(std::size_t region) {
+    const auto& shape = recipe_.regions[region].shape;
+    if (const auto* ball = std::get_if<BallRegion>(&shape)) {
+      ask_distance(region, ball->source, points(ball->source, {ball->centre}), ball->distance);
+    } else if (const auto* flood = std::get_if<FloodRegion>(&shape)) {
+      ask_distance(region, flood->source, points(flood->source, flood->seeds), flood->distance);
+    } else if (const auto* rings = std::get_if<RingsRegion>(&shape)) {
+      Rings& found = plans_[region].rings;
+      const Mesh& mesh = survey(rings->source).mesh;
+      found =
+          find_rings(mesh, points(rings->source, rings->inner), points(rings->source, rings->outer),
+                     location_of(recipe_, region, "rings"));
+      ask_distance(region, rings->source, vertex_points(mesh, found.inner), rings->distance);
+      ask_distance(region, rings->source, vertex_points(mesh, found.outer), rings->distance);
+    }
+  }
+
+  /// The i-th distance that a region asked for.
+  const Eigen::VectorXd& answer(std::size_t region, int source, std::size_t i) {
+    const Plan& plan = plans_[region];
+    if (i < plan.along_edges.size()) return plan.along_edges[i];
+    return survey(source).geodesics.answers[plan.queries[i]];
+  }
+
+  RegionField field_of(std::size_t region) {
+    const RegionOfInterest& of = recipe_.regions[region];
+    RegionField field;
+    field.falloff = of.falloff;
+    if (const auto* ball = std::get_if<BallRegion>(&of.shape)) {
+      const double unit = survey(ball->source).unit;
+      field.form =
+          soft_step(answer(region, ball->source, 0), ball->inner * unit, ball->outer * unit);
+    } else if (const auto* rings = std::get_if<RingsRegion>(&of.shape)) {
+      field.form = ring_distance(plans_[region].rings, answer(region, rings->source, 0),
+                                 answer(region, rings->source, 1));
+    } else if (std::holds_alternative<MaskRegion>(of.shape)) {
+      field.form = (1 - masks_[region].array()).matrix().eval();
+    } else if (const auto* scattered = std::get_if<ScatteredRegion>(&of.shape)) {
+      field.form = scattered_distance(region, *scattered);
+    } else if (const auto* spatial = std::get_if<SpatialRegion>(&of.shape)) {
+      field = spatial_field(region, *spatial);
+    } else if (const auto* flood = std::get_if<FloodRegion>(&of.shape)) {
+      field.form = flood_field(region, *flood);
+      field.floods = true;
+    } else {
+      field.form = std::get<CombinedRegion>(of.shape);
+      return field;
+    }
+    if (auto* d = std::get_if<Eigen::VectorXd>(&field.form)) *d = bent_by(field.falloff, *d);
+    return field;
+  }
+
+  Eigen::VectorXd scattered_distance(std::size_t region, const ScatteredRegion& scattered) {
+    std::vector<Place> places;
+    for (const auto& [place, value] : scattered.values) places.push_back(place);
+    const PointSet at = points(scattered.source, places);
+    std::vector<FixedValue> fixed;
+    for (std::size_t i = 0; i < at.size(); ++i) {
+      fixed.push_back(
+          {nearest_corner(survey(scattered.source).mesh, at[i]), scattered.values[i].second});
+    }
+    check_reached(region, scattered.source, fixed);
+    return 1 - harmonic_values(mesh_.connectivity, fixed).array().max(0).min(1);
+  }
+
+  /// Each piece of the surface needs a value of its own.
+  void check_reached(std::size_t region, int source, const std::vector<FixedValue>& fixed) {
+    const Components components = connected_components(one_rings(mesh_.connectivity));
+    std::vector<bool> reached(static_cast<std::size_t>(components.count), false);
+    for (const FixedValue& each : fixed) {
+      reached[static_cast<std::size_t>(components.label[static_cast<std::size_t>(each.vertex)])] =
+          true;
+    }
+    complain_unreached(region, "scattered", source, components, reached);
+  }
+
+  void complain_unreached(std::size_t region, const std::string& kind, int source,
+                          const Components& components, const std::vector<bool>& reached) {
+    const auto missed = std::find(reached.begin(), reached.end(), false);
+    if (missed == reached.end()) return;
+    const auto label = static_cast<int>(missed - reached.begin());
+    const auto vertex = std::find(components.label.begin(), components.label.end(), label) -
+                        components.label.begin();
+    const Eigen::RowVector3d at = mesh_.geometries[static_cast<std::size_t>(source)].row(vertex);
+    throw BakeError(Problem{
+        Severity::Error, "recipe.unreached", location_of(recipe_, region, kind),
+        fmt::format("the surface has {} pieces, and no point of this region lies on the one "
+                    "at ({:.4g}, {:.4g}, {:.4g})",
+                    components.count, at.x(), at.y(), at.z()),
+        "give a point on each piece"});
+  }
+
+  void check_expression(std::size_t region, const SpatialRegion& spatial) {
+    const auto* expression = std::get_if<Expression>(&spatial.shape);
+    const std::string error = expression != nullptr ? expression_error(expression->text) : "";
+    if (error.empty()) return;
+    throw BakeError(Problem{
+        Severity::Error, "recipe.expression", location_of(recipe_, region, "spatial/expression"),
+        fmt::format("\"{}\" cannot be read: {}", expression->text, error),
+        "it has x, y, z and t, numbers, + - * / ^, comparisons, ?: and functions "
+        "such as sin(x), min(x, y)"});
+  }
+
+  RegionField spatial_field(std::size_t region, const SpatialRegion& spatial) {
+    check_expression(region, spatial);
+    RegionField field;
+    field.falloff = recipe_.regions[region].falloff;
+    SpatialField form{spatial, {}, location_of(recipe_, region, "spatial")};
+    const std::vector<int> sources =
+        spatial.sources.empty() ? sources_with_a_share(recipe_) : spatial.sources;
+    for (const int source : sources) {
+      auto& coordinates = coordinates_[source];
+      if (!coordinates) {
+        const Surveyed& surveyed = survey(source);
+        coordinates = std::make_shared<const Positions>(
+            centred_coordinates(surveyed.mesh, surveyed.unit > 0 ? surveyed.unit : 1));
+      }
+      form.coordinates.push_back(coordinates);
+    }
+    field.moves = moves_with_time(spatial);
+    // Evaluated once in any case: an expression that gives no number is told before anything moves.
+    Eigen::VectorXd d = spatial_distance(form, 0);
+    if (field.moves) {
+      field.form = std::move(form);
+    } else {
+      field.form = std::move(d);
+    }
+    return field;
+  }
+
+  FloodField flood_field(std::size_t region, const FloodRegion& flood) {
+    const Eigen::VectorXd& r = answer(region, flood.source, 0);
+    const Components components = connected_components(one_rings(mesh_.connectivity));
+    std::vector<bool> reached(static_cast<std::size_t>(components.count), true);
+    for (Eigen::Index v = 0; v < r.size(); ++v) {
+      if (std::isfinite(r(v))) continue;
+      reached[static_cast<std::size_t>(components.label[static_cast<std::size_t>(v)])] = false;
+    }
+    complain_unreached(region, "flood", flood.source, components, reached);
+    return {flood_order(r, survey(flood.source).mesh.positions, flood.softness), flood.softness};
+  }
+
+  /// Combinations of fixed regions are fixed; others wait for their moment.
+  void settle_combination(RegionFields& fields, std::vector<bool>& done, std::size_t region) {
+    if (done[region]) return;
+    done[region] = true;
+    const auto* combined = std::get_if<CombinedRegion>(&fields[region].form);
+    if (combined == nullptr) return;
+    for (const int part : combined->regions) {
+      const auto p = static_cast<std::size_t>(part);
+      settle_combination(fields, done, p);
+      fields[region].moves = fields[region].moves || fields[p].moves;
+      fields[region].floods = fields[region].floods || fields[p].floods;
+    }
+    if (fields[region].moves || fields[region].floods) return;
+    fields[region].form = distance_at(fields, static_cast<int>(region), {});
+  }
+
   const MorphableMesh& mesh_;
   const Recipe& recipe_;
-  std::vector<Eigen::VectorXd> distances_;  // sized up front: references into it stay valid
+  const std::vector<Eigen::VectorXd>& masks_;
+  std::vector<Plan> plans_;
+  std::map<int, Surveyed> surveyed_;
+  std::map<int, std::shared_ptr<const Positions>> coordinates_;
 };
 
 }  // namespace
 
-std::vector<Eigen::VectorXd> region_distances(const MorphableMesh& mesh, const Recipe& recipe) {
-  return RegionTable(mesh, recipe).all();
+RegionFields region_fields(const MorphableMesh& mesh, const Recipe& recipe,
+                           const std::vector<Eigen::VectorXd>& masks) {
+  return RegionBuilder(mesh, recipe, masks).build();
 }
 
 }  // namespace morphbake

@@ -4,16 +4,20 @@
 
 #include "morphbake/connectivity/morphable_mesh.h"
 #include "morphbake/recipe/recipe.h"
+#include "morphbake/transition/region_fields.h"
 
 namespace morphbake {
 
-/// d of every region: 0 inside, 1 outside, between them across the soft ring.
+/// All regions of a recipe on K.
 ///
-/// A ball is measured on the geometry of the source that it names and carried to K vertex by
-/// vertex.
-/// @param recipe  whose balls have positions for centres (see with_positions)
-/// @return  one a region: #V, each in [0, 1]
-/// @see     Alexa 2003, section 5.1
-std::vector<Eigen::VectorXd> region_distances(const MorphableMesh& mesh, const Recipe& recipe);
+/// Each is measured on the geometry of the source that it names and carried to K vertex by vertex.
+/// Geodesic distances share a factorisation a source and piece of its surface.
+/// @param recipe  whose places are positions (see with_positions)
+/// @param masks   one a region: what mask_values gave, or no rows
+/// @throws BakeError "transition.distance-failed", "recipe.ring", "recipe.unreached",
+///         "recipe.expression"
+/// @see    Alexa 2003, sections 2.4, 5.1 to 5.3
+RegionFields region_fields(const MorphableMesh& mesh, const Recipe& recipe,
+                           const std::vector<Eigen::VectorXd>& masks = {});
 
 }  // namespace morphbake

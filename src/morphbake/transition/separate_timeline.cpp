@@ -18,7 +18,7 @@ using Factors = std::vector<int>;  // rising track indices; empty is the start
 
 /// Whether track `a` has come to its end before track `b` begins to move.
 bool is_done_before(const Track& a, const Track& b) {
-  const double begin = b.ease == Ease::Step ? b.end : b.begin;
+  const double begin = b.ease.kind == Ease::Step ? b.end : b.begin;
   return a.edit.amount == 1 && a.end <= begin;
 }
 
@@ -47,6 +47,12 @@ std::string joined_names(const Factors& factors, const std::vector<Track>& track
   return name;
 }
 
+/// The amount that a coefficient of 1 stands for. Coefficients become weights, which engines clamp
+/// to [0, 1]: what goes beyond is folded into the field.
+double field_unit(const Edit& edit) {
+  return edit.amount >= 0 && edit.amount <= 1 ? 1 : edit.amount;
+}
+
 /// The fields of all products of amounts so far.
 using Terms = std::map<Factors, Eigen::MatrixXd>;
 
@@ -58,44 +64,48 @@ void add_term(Terms& terms, const Factors& factors, const Eigen::MatrixXd& field
 
 void check_term_count(const Recipe& recipe, std::size_t count) {
   if (count <= kFieldLimit) return;
-  throw BakeError(
-      Problem{Severity::Error,
-              "transition.too-many-overlaps",
-              {recipe.file.string(), "/timeline/tracks", 0, 0},
-              fmt::format("the tracks need more than {} shapes: one each, and one for each "
-                          "combination that overlaps in space and time",
-                          kFieldLimit - 1),
-              "use fewer tracks, and let those that share a region follow one another"});
+  throw BakeError(Problem{
+      Severity::Error, "transition.too-many-overlaps", location_in(recipe, "/timeline/tracks"),
+      fmt::format("the tracks need more than {} shapes: one each, and one for each "
+                  "combination that overlaps in space and time",
+                  kFieldLimit - 1),
+      "use fewer tracks, and let those that share a region follow one another"});
+}
+
+/// m S of an edit, at every vertex and axis: #sources by #V, or 3 #V.
+Eigen::MatrixXd edited_part(const Shares& to, const Eigen::RowVectorXd& m) {
+  Eigen::MatrixXd part(to.rows(), to.cols() * m.size());
+  for (Eigen::Index axis = 0; axis < to.cols(); ++axis) {
+    part.middleCols(axis * m.size(), m.size()) = to.col(axis) * m;
+  }
+  return part;
 }
 
 /// Expands T <- (1 - a m) T + a m S track by track, with a(t) kept symbolic and m = 1 - d.
-Terms expand_tracks(const Recipe& recipe, const std::vector<Eigen::VectorXd>& regions,
-                    Eigen::Index vertex_count) {
+Terms expand_tracks(const Recipe& recipe, const RegionFields& regions, Eigen::Index vertex_count) {
   const std::vector<Track>& tracks = recipe.timeline.tracks;
-  const auto shares = [](const Shares& of) {
-    return Eigen::Map<const Eigen::VectorXd>(of.data(), static_cast<Eigen::Index>(of.size()));
-  };
   Terms terms;
   terms[{}] = uniform_transition(recipe.timeline.start, vertex_count);
   for (std::size_t i = 0; i < tracks.size(); ++i) {
     const Edit& edit = tracks[i].edit;
-    Eigen::RowVectorXd m = Eigen::RowVectorXd::Ones(vertex_count);
-    if (edit.region >= 0)
-      m = 1 - regions[static_cast<std::size_t>(edit.region)].transpose().array();
+    const double unit = field_unit(edit);
+    const Eigen::RowVectorXd m = edit_shares(edit, regions, vertex_count, {0, unit});
     const Terms before = terms;
     const Factors alone = {static_cast<int>(i)};
-    add_term(terms, alone, shares(edit.to) * m);
+    add_term(terms, alone, edited_part(edit.to, m));
+    const Eigen::RowVectorXd at_each_axis = m.replicate(1, edit.to.cols());
     for (const auto& [factors, field] : before) {
       Factors product = factors;
       product.push_back(static_cast<int>(i));
-      add_term(terms, reduced(product, tracks), -(field.array().rowwise() * m.array()).matrix());
+      add_term(terms, reduced(product, tracks),
+               -(field.array().rowwise() * at_each_axis.array()).matrix());
     }
     check_term_count(recipe, terms.size());
   }
   return terms;
 }
 
-SeparableTimeline separate_tracks(const Recipe& recipe, const std::vector<Eigen::VectorXd>& regions,
+SeparableTimeline separate_tracks(const Recipe& recipe, const RegionFields& regions,
                                   Eigen::Index vertex_count) {
   SeparableTimeline separable{recipe.timeline.start, {}};
   for (auto& [factors, field] : expand_tracks(recipe, regions, vertex_count)) {
@@ -108,7 +118,7 @@ SeparableTimeline separate_tracks(const Recipe& recipe, const std::vector<Eigen:
   return separable;
 }
 
-SeparableTimeline separate_keys(const Recipe& recipe, const std::vector<Eigen::VectorXd>& regions,
+SeparableTimeline separate_keys(const Recipe& recipe, const RegionFields& regions,
                                 Eigen::Index vertex_count) {
   const std::vector<Key>& keys = recipe.timeline.keys;
   const int first = keys.front().state;
@@ -146,7 +156,7 @@ Eigen::VectorXd key_coefficients(const Timeline& timeline, const SeparableTimeli
   } else {
     const Key& last = keys[next - 1];
     const double u = (time - last.time) / (keys[next].time - last.time);
-    const bool holds = before && keys[next].ease == Ease::Step;
+    const bool holds = before && keys[next].ease.kind == Ease::Step;
     const double share = holds ? 0 : eased(keys[next].ease, u);
     add(last, 1 - share);
     add(keys[next], share);
@@ -156,7 +166,7 @@ Eigen::VectorXd key_coefficients(const Timeline& timeline, const SeparableTimeli
 }
 
 double track_amount_before(const Track& track, double time) {
-  const bool jumps = track.ease == Ease::Step || track.begin == track.end;
+  const bool jumps = track.ease.kind == Ease::Step || track.begin == track.end;
   if (jumps) return time > track.end ? track.edit.amount : 0;
   return track_amount(track, time);
 }
@@ -168,7 +178,8 @@ Eigen::VectorXd track_coefficients(const Timeline& timeline, const SeparableTime
     for (const int track : separable.fields[k].factors) {
       const Track& factor = timeline.tracks[static_cast<std::size_t>(track)];
       phi(static_cast<Eigen::Index>(k)) *=
-          before ? track_amount_before(factor, time) : track_amount(factor, time);
+          (before ? track_amount_before(factor, time) : track_amount(factor, time)) /
+          field_unit(factor.edit);
     }
   }
   return phi;
@@ -182,14 +193,30 @@ Eigen::VectorXd coefficients(const Timeline& timeline, const SeparableTimeline& 
 
 }  // namespace
 
-SeparableTimeline separate_timeline(const Recipe& recipe,
-                                    const std::vector<Eigen::VectorXd>& regions,
+bool is_separable(const Recipe& recipe, const RegionFields& regions) {
+  const auto moves = [&](const Edit& edit) {
+    return edit.region >= 0 && regions[static_cast<std::size_t>(edit.region)].moves;
+  };
+  const auto changes = [&](const Track& track) {
+    const int region = track.edit.region;
+    return moves(track.edit) || (region >= 0 && regions[static_cast<std::size_t>(region)].floods);
+  };
+  const Timeline& timeline = recipe.timeline;
+  const auto key_moves = [&](const Key& key) {
+    const State& state = recipe.states[static_cast<std::size_t>(key.state)];
+    return std::any_of(state.edits.begin(), state.edits.end(), moves);
+  };
+  return std::none_of(timeline.tracks.begin(), timeline.tracks.end(), changes) &&
+         std::none_of(timeline.keys.begin(), timeline.keys.end(), key_moves);
+}
+
+SeparableTimeline separate_timeline(const Recipe& recipe, const RegionFields& regions,
                                     Eigen::Index vertex_count) {
   return recipe.timeline.keys.empty() ? separate_tracks(recipe, regions, vertex_count)
                                       : separate_keys(recipe, regions, vertex_count);
 }
 
-SeparableTimeline separate_state(const State& state, const std::vector<Eigen::VectorXd>& regions,
+SeparableTimeline separate_state(const State& state, const RegionFields& regions,
                                  Eigen::Index vertex_count) {
   const Eigen::MatrixXd change =
       state_transition(state, regions, vertex_count) - uniform_transition(state.mix, vertex_count);

@@ -10,7 +10,7 @@ namespace morphbake {
 /// One fixed field of a separable timeline.
 struct TransitionField {
   std::string name;          ///< the track's or the state's; products of tracks are joined by "+"
-  Eigen::MatrixXd change;    ///< dT: #sources by #V; columns sum to 0
+  Eigen::MatrixXd change;    ///< dT: #sources by #V, or 3 #V as TransitionState; columns sum to 0
   std::vector<int> factors;  ///< tracks whose amounts are multiplied, or one state (with keys)
 };
 
@@ -25,14 +25,16 @@ struct SeparableTimeline {
   std::vector<TransitionField> fields;
 };
 
-/// @param regions  d of every region
+/// Whether the timeline is separable: no track floods, and no track or key has a region that moves.
+bool is_separable(const Recipe& recipe, const RegionFields& regions);
+
+/// @param recipe  whose timeline is separable
 /// @throws BakeError "transition.too-many-overlaps" beyond 255 fields
-SeparableTimeline separate_timeline(const Recipe& recipe,
-                                    const std::vector<Eigen::VectorXd>& regions,
+SeparableTimeline separate_timeline(const Recipe& recipe, const RegionFields& regions,
                                     Eigen::Index vertex_count);
 
 /// The timeline that is one state for ever.
-SeparableTimeline separate_state(const State& state, const std::vector<Eigen::VectorXd>& regions,
+SeparableTimeline separate_state(const State& state, const RegionFields& regions,
                                  Eigen::Index vertex_count);
 
 /// phi at `time`: one a field, the first is 1, all in [0, 1].

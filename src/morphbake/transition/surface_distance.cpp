@@ -1,5 +1,7 @@
 #include "morphbake/transition/surface_distance.h"
 
+#include <CGAL/Eigen_matrix.h>
+#include <CGAL/Eigen_vector.h>
 #include <CGAL/Heat_method_3/Surface_mesh_geodesic_distances_3.h>
 #include <CGAL/Simple_cartesian.h>
 #include <CGAL/Surface_mesh.h>
@@ -9,8 +11,11 @@
 #include <array>
 #include <cassert>
 #include <limits>
+#include <optional>
+#include <utility>
 
 #include "morphbake/diagnostics/problem.h"
+#include "morphbake/linear/cholesky_factor.h"
 #include "morphbake/mesh/adjacency.h"
 
 namespace morphbake {
@@ -67,9 +72,10 @@ VertexIndex split_edge(Surface& surface, Surface::Halfedge_index edge, const Poi
   return vertex;
 }
 
-/// Makes a point of the original mesh a vertex of `surface`, whose earlier splits must be
-/// elsewhere.
-VertexIndex insert_point(Surface& surface, const Mesh& mesh, const SurfacePoint& at) {
+/// Makes a point of the original mesh a vertex of `surface`; none where an earlier point has split
+/// its triangle.
+std::optional<VertexIndex> insert_point(Surface& surface, const Mesh& mesh,
+                                        const SurfacePoint& at) {
   std::array<VertexIndex, 3> corners;
   for (int k = 0; k < 3; ++k) {
     corners[static_cast<std::size_t>(k)] =
@@ -87,9 +93,12 @@ VertexIndex insert_point(Surface& surface, const Mesh& mesh, const SurfacePoint&
   if (near == 1) {
     const VertexIndex a = corners[static_cast<std::size_t>((last_near + 1) % 3)];
     const VertexIndex b = corners[static_cast<std::size_t>((last_near + 2) % 3)];
-    return split_edge(surface, surface.halfedge(a, b), point);
+    const auto edge = surface.halfedge(a, b);
+    if (!edge.is_valid()) return std::nullopt;
+    return split_edge(surface, edge, point);
   }
   const auto inside = surface.halfedge(corners[0], corners[1]);
+  if (!inside.is_valid() || surface.target(surface.next(inside)) != corners[2]) return std::nullopt;
   const auto spoke = CGAL::Euler::add_center_vertex(inside, surface);
   surface.point(surface.target(spoke)) = point;
   return surface.target(spoke);
@@ -138,60 +147,146 @@ bool has_needles(const Mesh& mesh) {
   return false;
 }
 
-using HeatMethod =
-    CGAL::Heat_method_3::Surface_mesh_geodesic_distances_3<Surface,
-                                                           CGAL::Heat_method_3::Intrinsic_Delaunay>;
+/// CGAL's SparseLinearAlgebraWithFactorTraits_d by our factor: Eigen's, its default, takes several
+/// times as long on large meshes.
+class HeatSolver {
+ public:
+  using NT = double;
+  using Index = int;
+  using Matrix = CGAL::Eigen_sparse_matrix<double>;
+  using Vector = CGAL::Eigen_vector<double>;
 
-/// Distances from the one source of `heat` to the first `count` vertices.
-Eigen::VectorXd distances_of(HeatMethod& heat, Surface& surface, VertexIndex source,
-                             Eigen::Index count) {
+  bool factor(const Matrix& of, NT& scale) {
+    scale = 1;
+    SymmetricSystem system{of.eigen_object(), {}, 0};
+    const auto rows = static_cast<std::size_t>(system.matrix.rows());
+    const bool is_singular = sums_to_zero(system.matrix);
+    system.singular_block.assign(rows, is_singular ? 0 : -1);
+    system.singular_block_count = is_singular ? 1 : 0;
+    factor_.emplace(system);
+    return true;
+  }
+
+  bool linear_solver(const Matrix& b, Vector& x) {
+    x = factor_->solve(Eigen::MatrixXd(b.eigen_object())).col(0);
+    return true;
+  }
+
+ private:
+  /// Of the heat method's two matrices the Laplacian alone has rows that sum to 0, but for
+  /// rounding; in the other one the vertices' areas are left.
+  static bool sums_to_zero(const Eigen::SparseMatrix<double>& matrix) {
+    constexpr double kRounding = 1e-13;
+    const Eigen::VectorXd ones = Eigen::VectorXd::Ones(matrix.cols());
+    const Eigen::VectorXd sums = (matrix * ones).cwiseAbs(), sizes = matrix.cwiseAbs() * ones;
+    return (sums.array() <= kRounding * sizes.array()).all();
+  }
+
+  std::optional<CholeskyFactor> factor_;
+};
+
+using HeatMethod = CGAL::Heat_method_3::Surface_mesh_geodesic_distances_3<
+    Surface, CGAL::Heat_method_3::Intrinsic_Delaunay, CGAL::Default, HeatSolver>;
+
+/// Distances from the sources of `heat` to the first `count` vertices.
+Eigen::VectorXd distances_of(HeatMethod& heat, Surface& surface,
+                             const std::vector<VertexIndex>& sources, Eigen::Index count) {
   auto distance = surface.add_property_map<VertexIndex, double>("v:distance", 0).first;
   heat.estimate_geodesic_distances(distance);
   Eigen::VectorXd result(count);
   for (int v = 0; v < count; ++v) result(v) = distance[VertexIndex(static_cast<unsigned>(v))];
-  // The heat method fixes its constant at the least value, which need not be at the source itself.
-  return (result.array() - distance[source]).max(0);
+  // The heat method fixes its constant at the least value, which need not be at a source.
+  double zero = 0;
+  for (const VertexIndex source : sources) zero += distance[source];
+  return (result.array() - zero / static_cast<double>(sources.size())).max(0);
 }
 
-/// Distances from one point on a connected mesh.
-Eigen::VectorXd heat_distances(const Mesh& mesh, const SurfacePoint& centre) {
+/// Distances on a connected mesh from those sets whose points can all be inserted into one surface;
+/// the others' stay without rows.
+///
+/// @param open  indices of the sets to do; those done are taken out
+void heat_distances(const Mesh& mesh, const std::vector<PointSet>& sets,
+                    std::vector<std::size_t>& open, std::vector<Eigen::VectorXd>& distances) {
   Surface surface = to_cgal(mesh);
-  const VertexIndex source = insert_point(surface, mesh, centre);
+  std::vector<std::pair<std::size_t, std::vector<VertexIndex>>> inserted;
+  std::vector<std::size_t> left;
+  for (const std::size_t set : open) {
+    std::vector<VertexIndex> vertices;
+    for (const SurfacePoint& at : sets[set]) {
+      if (const auto vertex = insert_point(surface, mesh, at)) vertices.push_back(*vertex);
+    }
+    // Of a set alone in its surface, points in one triangle that cannot all be inserted are so
+    // close to one another that those which could be stand for them.
+    const bool is_whole = vertices.size() == sets[set].size() || set == open.front();
+    if (is_whole) {
+      inserted.emplace_back(set, std::move(vertices));
+    } else {
+      left.push_back(set);
+    }
+  }
   HeatMethod heat(surface);
-  heat.add_source(source);
-  return distances_of(heat, surface, source, mesh.positions.rows());
+  for (const auto& [set, vertices] : inserted) {
+    heat.clear_sources();
+    for (const VertexIndex vertex : vertices) heat.add_source(vertex);
+    distances[set] = distances_of(heat, surface, vertices, mesh.positions.rows());
+  }
+  open = std::move(left);
+}
+
+/// The sets' points on one component, as points of its part.
+std::vector<PointSet> on_component(const Mesh& mesh, const Components& components, int label,
+                                   const std::vector<PointSet>& sets) {
+  // Triangles keep their order in the part: their numbers there are found by counting.
+  std::vector<int> number(static_cast<std::size_t>(mesh.triangles.rows()), -1);
+  int next = 0;
+  for (int f = 0; f < mesh.triangles.rows(); ++f) {
+    const auto corner = static_cast<std::size_t>(mesh.triangles(f, 0));
+    if (components.label[corner] == label) number[static_cast<std::size_t>(f)] = next++;
+  }
+  std::vector<PointSet> there(sets.size());
+  for (std::size_t i = 0; i < sets.size(); ++i) {
+    for (const SurfacePoint& at : sets[i]) {
+      const int triangle = number[static_cast<std::size_t>(at.triangle)];
+      if (triangle >= 0) there[i].push_back({triangle, at.barycentric});
+    }
+  }
+  return there;
+}
+
+[[noreturn]] void fail_without_area() {
+  throw BakeError(
+      Problem{Severity::Error,
+              "transition.distance-failed",
+              {},
+              "the geodesic distance is not finite: the surface has triangles without area",
+              "set \"distance\": \"edges\" for the region"});
 }
 
 }  // namespace
 
 std::vector<Eigen::VectorXd> geodesic_distances(const Mesh& mesh,
-                                                const std::vector<SurfacePoint>& centres) {
+                                                const std::vector<PointSet>& sets) {
   const Components components =
       connected_components(one_rings({static_cast<int>(mesh.positions.rows()), mesh.triangles}));
-  std::vector<Eigen::VectorXd> distances;
-  for (const SurfacePoint& centre : centres) {
-    const int label =
-        components.label[static_cast<std::size_t>(mesh.triangles(centre.triangle, 0))];
+  std::vector<Eigen::VectorXd> distances(
+      sets.size(),
+      Eigen::VectorXd::Constant(mesh.positions.rows(), std::numeric_limits<double>::infinity()));
+  for (int label = 0; label < components.count; ++label) {
+    const std::vector<PointSet> there = on_component(mesh, components, label, sets);
+    std::vector<std::size_t> open;
+    for (std::size_t i = 0; i < there.size(); ++i) {
+      if (!there[i].empty()) open.push_back(i);
+    }
+    if (open.empty()) continue;
+    const std::vector<std::size_t> asked = open;
     const Part part = part_of_component(mesh, components, label);
-    SurfacePoint at = centre;
-    // Triangles keep their order in the part, so the centre's is found by counting.
-    at.triangle = 0;
-    for (int f = 0; f < centre.triangle; ++f) {
-      at.triangle += components.label[static_cast<std::size_t>(mesh.triangles(f, 0))] == label;
+    if (has_needles(part.mesh)) fail_without_area();
+    std::vector<Eigen::VectorXd> inside(sets.size());
+    while (!open.empty()) heat_distances(part.mesh, there, open, inside);
+    for (const std::size_t i : asked) {
+      if (!inside[i].allFinite()) fail_without_area();
+      distances[i](part.vertex_of_part) = inside[i];
     }
-    const Eigen::VectorXd inside =
-        has_needles(part.mesh) ? Eigen::VectorXd::Constant(1, NAN) : heat_distances(part.mesh, at);
-    if (!inside.allFinite()) {
-      throw BakeError(
-          Problem{Severity::Error,
-                  "transition.distance-failed",
-                  {},
-                  "the geodesic distance is not finite: the surface has triangles without area",
-                  "set \"distance\": \"edges\" for the region"});
-    }
-    Eigen::VectorXd& whole = distances.emplace_back(
-        Eigen::VectorXd::Constant(mesh.positions.rows(), std::numeric_limits<double>::infinity()));
-    whole(part.vertex_of_part) = inside;
   }
   return distances;
 }
@@ -215,13 +310,13 @@ Eigen::VectorXd VertexDistances::from(int vertex) {
     heat_->method.clear_sources();
     heat_->method.add_source(source);
     Eigen::VectorXd distances =
-        distances_of(heat_->method, heat_->surface, source, mesh_.positions.rows());
+        distances_of(heat_->method, heat_->surface, {source}, mesh_.positions.rows());
     if (distances.allFinite()) return distances;
   }
   for (int f = 0; f < mesh_.triangles.rows(); ++f) {
     for (int k = 0; k < 3; ++k) {
       if (mesh_.triangles(f, k) == vertex)
-        return edge_distances(mesh_, {f, Eigen::Vector3d::Unit(k)});
+        return edge_distances(mesh_, {{f, Eigen::Vector3d::Unit(k)}});
     }
   }
   assert(false);  // every vertex of a connected mesh has a triangle

@@ -7,24 +7,33 @@
 
 namespace morphbake {
 
-/// Shortest distance along edges (Dijkstra) from a point, whose triangle's corners start at their
-/// straight distance to it.
+/// Points of a surface from which distances are measured together: the nearest one counts.
+using PointSet = std::vector<SurfacePoint>;
+
+/// Shortest distance along edges (Dijkstra) from the nearest of several points, whose triangle's
+/// corners start at their straight distance to it.
 ///
 /// @return  #V, scene units; infinity where no path leads
 /// @see     Alexa 2003, section 5.1
-Eigen::VectorXd edge_distances(const Mesh& mesh, const SurfacePoint& centre);
+Eigen::VectorXd edge_distances(const Mesh& mesh, const PointSet& from);
 
-/// Geodesic distance over the surface from each of several points, by the heat method on an
+/// Fewest edges to walk from the nearest of several vertices.
+///
+/// @return  #V; infinity where no path leads
+Eigen::VectorXd hop_distances(const Mesh& mesh, const std::vector<int>& from);
+
+/// Geodesic distance over the surface from each of several sets of points, by the heat method on an
 /// intrinsic Delaunay triangulation.
 ///
-/// The centre becomes a vertex of its own (its triangle or edge is split), never the nearest
-/// vertex. Error 1-4 % of the distance; it grows where triangles are large against it.
-/// @return  one a centre: #V, scene units, 0 or more; infinity on other components
-/// @cost    a factorisation a centre
+/// A point becomes a vertex of its own (its triangle or edge is split), never the nearest vertex.
+/// Error 1-4 % of the distance; it grows where triangles are large against it.
+/// @param sets  none is empty
+/// @return  one a set: #V, scene units, 0 or more; infinity on components without a point of it
+/// @cost    one factorisation a component, and one more for points that share a triangle
 /// @see     Crane, Weischedel and Wardetzky 2013; CGAL Heat_method_3
 /// @throws  BakeError "transition.distance-failed"
 std::vector<Eigen::VectorXd> geodesic_distances(const Mesh& mesh,
-                                                const std::vector<SurfacePoint>& centres);
+                                                const std::vector<PointSet>& sets);
 
 /// Distances from many vertices of one connected mesh, which is factorised once.
 ///

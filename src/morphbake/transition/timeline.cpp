@@ -6,13 +6,12 @@
 namespace morphbake {
 namespace {
 
-TransitionState transition_between_keys(const Recipe& recipe,
-                                        const std::vector<Eigen::VectorXd>& regions,
+TransitionState transition_between_keys(const Recipe& recipe, const RegionFields& regions,
                                         Eigen::Index vertex_count, double time) {
   const std::vector<Key>& keys = recipe.timeline.keys;
   const auto state = [&](const Key& key) {
     return state_transition(recipe.states[static_cast<std::size_t>(key.state)], regions,
-                            vertex_count);
+                            vertex_count, time);
   };
   const auto next = std::upper_bound(keys.begin(), keys.end(), time,
                                      [](double t, const Key& key) { return t < key.time; });
@@ -23,11 +22,26 @@ TransitionState transition_between_keys(const Recipe& recipe,
   return (1 - share) * state(last) + share * state(*next);
 }
 
+/// One coordinate of a cubic Bezier curve from 0 to 1 with inner control values a and b.
+double bezier(double a, double b, double s) {
+  return s * (3 * (1 - s) * ((1 - s) * a + s * b) + s * s);
+}
+
+/// y where the curve's x, which rises, is `u`.
+double eased_by_curve(const std::array<double, 4>& control, double u) {
+  double low = 0, high = 1;
+  for (int i = 0; i < 60; ++i) {
+    const double middle = (low + high) / 2;
+    (bezier(control[0], control[2], middle) < u ? low : high) = middle;
+  }
+  return bezier(control[1], control[3], (low + high) / 2);
+}
+
 }  // namespace
 
-double eased(Ease ease, double share) {
+double eased(const Easing& easing, double share) {
   const double u = std::clamp(share, 0.0, 1.0);
-  switch (ease) {
+  switch (easing.kind) {
     case Ease::Linear:
       return u;
     case Ease::Step:
@@ -36,6 +50,8 @@ double eased(Ease ease, double share) {
       return u * u * (3 - 2 * u);
     case Ease::Cubic:
       return u < 0.5 ? 4 * u * u * u : 1 - 4 * (1 - u) * (1 - u) * (1 - u);
+    case Ease::Bezier:
+      return u == 0 || u == 1 ? u : eased_by_curve(easing.control, u);
   }
   return u;
 }
@@ -47,47 +63,84 @@ double track_amount(const Track& track, double time) {
 }
 
 TransitionState uniform_transition(const Shares& shares, Eigen::Index vertex_count) {
-  return Eigen::Map<const Eigen::VectorXd>(shares.data(), static_cast<Eigen::Index>(shares.size()))
-      .replicate(1, vertex_count);
+  TransitionState T(shares.rows(), shares.cols() * vertex_count);
+  for (Eigen::Index axis = 0; axis < shares.cols(); ++axis) {
+    T.middleCols(axis * vertex_count, vertex_count) = shares.col(axis).replicate(1, vertex_count);
+  }
+  return T;
 }
 
-TransitionState apply_edit(const TransitionState& T, const Edit& edit, double amount,
-                           const std::vector<Eigen::VectorXd>& regions) {
-  Eigen::RowVectorXd share = Eigen::RowVectorXd::Constant(T.cols(), amount);
-  if (edit.region >= 0) {
-    share = amount * (1 - regions[static_cast<std::size_t>(edit.region)].transpose().array());
-  }
+Eigen::RowVectorXd edit_shares(const Edit& edit, const RegionFields& regions,
+                               Eigen::Index vertex_count, const RegionMoment& moment) {
+  if (edit.region < 0) return Eigen::RowVectorXd::Constant(vertex_count, moment.amount);
+  const Eigen::RowVectorXd inside =
+      1 - distance_at(regions, edit.region, moment).transpose().array();
+  const bool floods = regions[static_cast<std::size_t>(edit.region)].floods;
+  return floods ? inside : (moment.amount * inside).eval();
+}
+
+TransitionState apply_edit(const TransitionState& T, const Edit& edit,
+                           const Eigen::RowVectorXd& m) {
   TransitionState edited = T;
-  for (Eigen::Index s = 0; s < T.rows(); ++s) {
-    const double to = edit.to[static_cast<std::size_t>(s)];
-    edited.row(s) = (1 - share.array()) * T.row(s).array() + share.array() * to;
+  const Eigen::Index count = m.size();
+  for (Eigen::Index axis = 0; axis < edit.to.cols(); ++axis) {
+    auto block = edited.middleCols(axis * count, count);
+    for (Eigen::Index s = 0; s < T.rows(); ++s) {
+      block.row(s) = (1 - m.array()) * block.row(s).array() + m.array() * edit.to(s, axis);
+    }
   }
   return edited;
 }
 
-TransitionState state_transition(const State& state, const std::vector<Eigen::VectorXd>& regions,
-                                 Eigen::Index vertex_count) {
+TransitionState state_transition(const State& state, const RegionFields& regions,
+                                 Eigen::Index vertex_count, double time) {
   TransitionState T = uniform_transition(state.mix, vertex_count);
-  for (const Edit& edit : state.edits) T = apply_edit(T, edit, edit.amount, regions);
+  for (const Edit& edit : state.edits) {
+    T = apply_edit(T, edit, edit_shares(edit, regions, vertex_count, {time, edit.amount}));
+  }
   return T;
 }
 
-TransitionState transition_at(const Recipe& recipe, const std::vector<Eigen::VectorXd>& regions,
+TransitionState transition_at(const Recipe& recipe, const RegionFields& regions,
                               Eigen::Index vertex_count, double time) {
   if (!recipe.timeline.keys.empty())
     return transition_between_keys(recipe, regions, vertex_count, time);
   TransitionState T = uniform_transition(recipe.timeline.start, vertex_count);
   for (const Track& track : recipe.timeline.tracks) {
-    T = apply_edit(T, track.edit, track_amount(track, time), regions);
+    const double amount = track_amount(track, time);
+    if (amount == 0) continue;
+    T = apply_edit(T, track.edit, edit_shares(track.edit, regions, vertex_count, {time, amount}));
   }
   return T;
 }
 
+std::vector<int> sources_with_a_share(const Recipe& recipe) {
+  std::vector<bool> has_share(recipe.sources.size(), false);
+  const auto add = [&](const Shares& shares) {
+    for (std::size_t s = 0; s < has_share.size(); ++s) {
+      const auto row = static_cast<Eigen::Index>(s);
+      if (row < shares.rows() && !shares.row(row).isZero(0)) has_share[s] = true;
+    }
+  };
+  if (recipe.timeline.keys.empty()) add(recipe.timeline.start);
+  for (const Track& track : recipe.timeline.tracks) add(track.edit.to);
+  for (const State& state : recipe.states) {
+    add(state.mix);
+    for (const Edit& edit : state.edits) add(edit.to);
+  }
+  std::vector<int> sources;
+  for (std::size_t s = 0; s < has_share.size(); ++s) {
+    if (has_share[s]) sources.push_back(static_cast<int>(s));
+  }
+  if (sources.empty()) sources.push_back(0);
+  return sources;
+}
+
 std::vector<double> timeline_breaks(const Timeline& timeline) {
   std::vector<double> breaks = {0, timeline.duration};
-  const auto add_segment = [&](double begin, double end, Ease ease) {
+  const auto add_segment = [&](double begin, double end, const Easing& easing) {
     breaks.insert(breaks.end(), {begin, end});
-    if (ease == Ease::Cubic) breaks.push_back((begin + end) / 2);  // its halves join there
+    if (easing.kind == Ease::Cubic) breaks.push_back((begin + end) / 2);  // its halves join there
   };
   for (const Track& track : timeline.tracks) add_segment(track.begin, track.end, track.ease);
   for (std::size_t k = 1; k < timeline.keys.size(); ++k) {

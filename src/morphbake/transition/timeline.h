@@ -5,14 +5,16 @@
 #include <vector>
 
 #include "morphbake/recipe/recipe.h"
+#include "morphbake/transition/region_fields.h"
 
 namespace morphbake {
 
-/// The paper's {T_i}: #sources by #V, row i is the diagonal of T_i; every column sums to 1.
+/// The paper's {T_i}: #sources by #V, row i is the diagonal of T_i; every column sums to 1. In a
+/// recipe that has shares an axis it is #sources by 3 #V: all vertices' x, then y, then z.
 using TransitionState = Eigen::MatrixXd;
 
 /// Eased share of a segment at `share` in [0, 1]: 0 at 0, 1 at 1. Step stays 0 until 1.
-double eased(Ease ease, double share);
+double eased(const Easing& easing, double share);
 
 /// Amount of a track at `time`, in [0, track.edit.amount].
 double track_amount(const Track& track, double time);
@@ -20,20 +22,28 @@ double track_amount(const Track& track, double time);
 /// T with the same shares at every vertex.
 TransitionState uniform_transition(const Shares& shares, Eigen::Index vertex_count);
 
-/// T with an edit applied: (1 - a (1 - d)) T + a (1 - d) T~.
+/// How much of an edit each vertex takes: a (1 - d), or what a flood has reached by a.
 ///
-/// @param regions  d of every region, as region_distances
-/// @see            Alexa 2003, eq. 7
-TransitionState apply_edit(const TransitionState& T, const Edit& edit, double amount,
-                           const std::vector<Eigen::VectorXd>& regions);
+/// @return  #V
+Eigen::RowVectorXd edit_shares(const Edit& edit, const RegionFields& regions,
+                               Eigen::Index vertex_count, const RegionMoment& moment);
 
-/// T of a state: its mix with its edits in order.
-TransitionState state_transition(const State& state, const std::vector<Eigen::VectorXd>& regions,
-                                 Eigen::Index vertex_count);
+/// T with an edit applied: (1 - m) T + m T~.
+///
+/// @param m  #V, as edit_shares
+/// @see      Alexa 2003, eq. 7
+TransitionState apply_edit(const TransitionState& T, const Edit& edit, const Eigen::RowVectorXd& m);
+
+/// T of a state at `time`: its mix with its edits in order.
+TransitionState state_transition(const State& state, const RegionFields& regions,
+                                 Eigen::Index vertex_count, double time = 0);
 
 /// T at `time`, by applying the tracks in order or interpolating the keys in matrix space.
-TransitionState transition_at(const Recipe& recipe, const std::vector<Eigen::VectorXd>& regions,
+TransitionState transition_at(const Recipe& recipe, const RegionFields& regions,
                               Eigen::Index vertex_count, double time);
+
+/// The sources with a file that have a share in any track or state, in order; the first where none.
+std::vector<int> sources_with_a_share(const Recipe& recipe);
 
 /// Times at which the timeline may bend or jump: rising, from 0 to the duration.
 std::vector<double> timeline_breaks(const Timeline& timeline);

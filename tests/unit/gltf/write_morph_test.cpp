@@ -69,10 +69,7 @@ struct Source {
 MeshMorph morph_of(std::size_t primitives) {
   MeshMorph morph;
   morph.target_names = {"new"};
-  morph.animation_name = "clip";
-  morph.key_times = {0, 1};
-  morph.key_weights = Eigen::MatrixXf::Zero(2, 1);
-  morph.key_weights(1, 0) = 1;
+  morph.clips = {{"clip", {0, 1}, Eigen::Vector2f(0, 1)}};
   for (std::size_t p = 0; p < primitives; ++p) {
     morph.primitives.push_back({Source::rows(0), {}, {Source::rows(2)}, {}});
   }
@@ -83,7 +80,6 @@ MeshMorph morph_of(std::size_t primitives) {
 MeshMorph still_of(std::size_t primitives, float first) {
   MeshMorph morph;
   morph.replaces_base = true;
-  morph.key_weights = Eigen::MatrixXf::Zero(1, 0);
   for (std::size_t p = 0; p < primitives; ++p) {
     morph.primitives.push_back({Source::rows(first), {}, {}, {}});
   }
@@ -219,13 +215,26 @@ TEST(WriteMorph, WhatIsReadBackIsWhatWasWritten) {
   source.add_own_target();
   source.draft.json["meshes"][0]["weights"] = {0.5};
   const std::string moving = write_morph_glb(source.open(), morph_of(1), "test");
-  const AnimatedMesh clip = read_written_mesh(moving, "written.glb", 0, true);
+  const AnimatedMesh clip = read_written_mesh(moving, "written.glb", 0, 1).mesh;
   EXPECT_EQ(weights_at(clip, 1), Eigen::Vector2d(0.5, 1));
   // A still adds no animation: the file's own ones do not count.
   const std::string still = write_morph_glb(source.open(), still_of(1, 7), "test");
-  const AnimatedMesh rest = read_written_mesh(still, "written.glb", 0, false);
+  const AnimatedMesh rest = read_written_mesh(still, "written.glb", 0, 0).mesh;
   EXPECT_EQ(weights_at(rest, 1)(0), 0.5);
   EXPECT_EQ(rest.primitives[0].positions(0, 0), 7 - 0.5F * 5);
+}
+
+TEST(WriteMorph, ClipsAreAnimationsOverTheSameTargets) {
+  MeshMorph morph = morph_of(1);
+  morph.clips.push_back({"back", {0, 2}, Eigen::Vector2f(1, 0.25F)});
+  const WrittenMesh read =
+      read_written_mesh(write_morph_glb(Source().open(), morph, "test"), "written.glb", 0, 2);
+  ASSERT_EQ(read.clips.size(), 2U);
+  EXPECT_EQ(read.clips[0].times, (std::vector<float>{0, 1}));
+  EXPECT_EQ(read.clips[0].values(1, 0), 1);
+  EXPECT_EQ(read.clips[1].times, (std::vector<float>{0, 2}));
+  EXPECT_EQ(read.clips[1].values(0, 0), 1);
+  EXPECT_EQ(read.clips[1].values(1, 0), 0.25F);
 }
 
 TEST(WriteMorph, OtherPointersStay) {

@@ -50,13 +50,13 @@ TEST(ReadRecipe, FillsInTheDefaultsOfTheSchema) {
             recipe.timeline.tracks[0].edit.amount);
   EXPECT_EQ(by_default("/definitions/edit/properties/amount"), recipe.states[0].edits[0].amount);
   EXPECT_EQ(by_default("/definitions/track/properties/ease"), "smoothstep");
-  EXPECT_EQ(recipe.timeline.tracks[0].ease, Ease::Smoothstep);
+  EXPECT_EQ(recipe.timeline.tracks[0].ease.kind, Ease::Smoothstep);
   EXPECT_EQ(by_default("/definitions/key/properties/ease"), "linear");
-  EXPECT_EQ(Key{}.ease, Ease::Linear);
+  EXPECT_EQ(Key{}.ease.kind, Ease::Linear);
   EXPECT_EQ(by_default("/definitions/region/properties/ball/properties/distance"), "geodesic");
   EXPECT_EQ(std::get<BallRegion>(recipe.regions[0].shape).distance, DistanceMeasure::Geodesic);
-  EXPECT_EQ(by_default("/definitions/output/properties/targets"), "tracks");
-  EXPECT_EQ(recipe.outputs[0].targets, TargetKind::Tracks);
+  EXPECT_EQ(by_default("/definitions/output/properties/targets"), "auto");
+  EXPECT_EQ(recipe.outputs[0].targets, TargetKind::Auto);
   const std::string preview = "/definitions/preview/properties/";
   EXPECT_EQ(by_default(preview + "turntable/properties/size"),
             Json({recipe.preview->width, recipe.preview->height}));
@@ -72,7 +72,7 @@ TEST(ReadRecipe, WithoutOutputsWritesItsNameWithoutPreview) {
   EXPECT_EQ(recipe.outputs[0].file, fs::canonical(folder.path) / "n.glb");
   EXPECT_FALSE(recipe.preview.has_value());
   EXPECT_EQ(recipe.options, "{}");
-  EXPECT_EQ(recipe.timeline.start, (Shares{1, 0}));
+  EXPECT_EQ(recipe.timeline.start, (Shares{{1}, {0}}));
 }
 
 TEST(ReadRecipe, ResolvesNamesToIndices) {
@@ -82,13 +82,13 @@ TEST(ReadRecipe, ResolvesNamesToIndices) {
           {"region": "rest", "to": {"b": 1}, "begin": 0, "end": 1}]})",
       R"(, "regions": {"rest": {"rest_of": ["nose"]},
           "nose": {"ball": {"on": "a", "at": "nose", "inner": 0.1, "outer": 0.2}}})"));
-  EXPECT_EQ(std::get<RestOfRegion>(recipe.regions[0].shape).regions, std::vector<int>{1});
+  EXPECT_EQ(std::get<CombinedRegion>(recipe.regions[0].shape).regions, std::vector<int>{1});
   const Place& centre = std::get<BallRegion>(recipe.regions[1].shape).centre;
   EXPECT_EQ(std::get<Eigen::Vector3d>(centre), Eigen::Vector3d(0, 0, 1));
   EXPECT_EQ(recipe.timeline.tracks[0].edit.region, 0);
-  EXPECT_EQ(recipe.timeline.tracks[0].edit.to, (Shares{0, 1}));
+  EXPECT_EQ(recipe.timeline.tracks[0].edit.to, (Shares{{0}, {1}}));
   EXPECT_EQ(recipe.timeline.tracks[0].name, "rest");
-  EXPECT_EQ(recipe.timeline.start, (Shares{0.25, 0.75}));
+  EXPECT_EQ(recipe.timeline.start, (Shares{{0.25}, {0.75}}));
 }
 
 TEST(ReadRecipe, ASourceChoosesByNameOrIndex) {
@@ -131,12 +131,12 @@ TEST(ReadRecipe, ASourceIsAStateAndKeysRestUntilTheDuration) {
       R"(, "states": {"half": {"mix": {"a": 0.5, "b": 0.5}}})"));
   ASSERT_EQ(recipe.states.size(), 2U);
   EXPECT_EQ(recipe.states[1].name, "a");
-  EXPECT_EQ(recipe.states[1].mix, (Shares{1, 0}));
+  EXPECT_EQ(recipe.states[1].mix, (Shares{{1}, {0}}));
   const std::vector<Key>& keys = recipe.timeline.keys;
   ASSERT_EQ(keys.size(), 4U);
   EXPECT_EQ(keys[0].state, 1);
   EXPECT_EQ(keys[1].state, 0);
-  EXPECT_EQ(keys[2].ease, Ease::Cubic);
+  EXPECT_EQ(keys[2].ease.kind, Ease::Cubic);
   EXPECT_EQ(keys[3].time, 3);
   EXPECT_EQ(keys[3].state, 1);
   EXPECT_EQ(recipe.timeline.duration, 3);
@@ -149,7 +149,7 @@ TEST(ReadRecipe, StillsNameATimeAStateOrASource) {
                                    {"file": "out/y.glb", "still": {"at": "b"}}])"));
   EXPECT_EQ(std::get<double>(recipe.outputs[0].still->at), 1.5);
   EXPECT_EQ(std::get<int>(recipe.outputs[1].still->at), 0);
-  EXPECT_EQ(recipe.states[0].mix, (Shares{0, 1}));
+  EXPECT_EQ(recipe.states[0].mix, (Shares{{0}, {1}}));
 }
 
 TEST(ReadRecipe, SourcesMayBeAnywhereAndHaveAnyName) {

@@ -35,7 +35,7 @@ struct Sweep {
   }
 
   DisplacementSystem system() const {
-    const SeparableTimeline middle{{}, {{"", change_at(0.5), {}}}};
+    const SeparableTimeline middle{Shares(0, 1), {{"", change_at(0.5), {}}}};
     return {mesh,
             choose_constraints(mesh, connected_components(one_rings(mesh.connectivity)),
                                untouched_vertices(middle), {HoldRule::Nothing, {}, {}, -1}),

@@ -15,7 +15,7 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 TEST(EdgeDistances, FollowTheEdges) {
   const Mesh mesh = test::grid(9, 9);  // diagonals run from lower left to upper right
-  const Eigen::VectorXd r = edge_distances(mesh, closest_point(mesh, {4, 4, 0}));
+  const Eigen::VectorXd r = edge_distances(mesh, {closest_point(mesh, {4, 4, 0})});
   EXPECT_NEAR(r(4 * 9 + 4), 0, 1e-12);
   EXPECT_NEAR(r(4 * 9 + 7), 3, 1e-12);
   EXPECT_NEAR(r(6 * 9 + 6), 2 * std::sqrt(2.0), 1e-12);
@@ -24,20 +24,20 @@ TEST(EdgeDistances, FollowTheEdges) {
 
 TEST(EdgeDistances, StartStraightFromAPointInsideATriangle) {
   const Mesh mesh = test::grid(3, 3);
-  const Eigen::VectorXd r = edge_distances(mesh, closest_point(mesh, {0.6, 0.3, 0}));
+  const Eigen::VectorXd r = edge_distances(mesh, {closest_point(mesh, {0.6, 0.3, 0})});
   EXPECT_NEAR(r(0), std::hypot(0.6, 0.3), 1e-12);
   EXPECT_NEAR(r(1), std::hypot(0.4, 0.3), 1e-12);
 }
 
 TEST(EdgeDistances, OtherComponentsAreUnreachable) {
   const Mesh mesh = test::joined(test::grid(3, 3), test::sphere(5, 6));
-  EXPECT_EQ(edge_distances(mesh, {0, {1, 0, 0}})(20), kInfinity);
+  EXPECT_EQ(edge_distances(mesh, {{0, {1, 0, 0}}})(20), kInfinity);
 }
 
 /// Largest error against the straight distance in the plane, relative to the grid's width of 40.
 double plane_error(const Eigen::Vector3d& centre) {
   const Mesh mesh = test::grid(41, 41);
-  const Eigen::VectorXd r = geodesic_distances(mesh, {closest_point(mesh, centre)}).front();
+  const Eigen::VectorXd r = geodesic_distances(mesh, {{closest_point(mesh, centre)}}).front();
   const Eigen::VectorXd exact = (mesh.positions.rowwise() - centre.transpose()).rowwise().norm();
   return (r - exact).cwiseAbs().maxCoeff() / 40;
 }
@@ -54,16 +54,47 @@ TEST(GeodesicDistances, OnAPlane) {
 TEST(GeodesicDistances, OnASphereAreArcs) {
   const Mesh mesh = test::sphere(60, 120);
   const Eigen::Vector3d centre = Eigen::Vector3d(0.3, 0.5, 0.8).normalized();
-  const Eigen::VectorXd r = geodesic_distances(mesh, {closest_point(mesh, centre)}).front();
+  const Eigen::VectorXd r = geodesic_distances(mesh, {{closest_point(mesh, centre)}}).front();
   for (Eigen::Index v = 0; v < r.size(); ++v) {
     const double arc = std::acos(std::clamp(mesh.positions.row(v).dot(centre), -1.0, 1.0));
     EXPECT_NEAR(r(v), arc, 0.04 * M_PI);
   }
 }
 
+TEST(GeodesicDistances, TheNearestOfSeveralPointsCounts) {
+  const Mesh mesh = test::grid(41, 41);
+  const PointSet both = {closest_point(mesh, {5, 20, 0}), closest_point(mesh, {35, 20, 0})};
+  const Eigen::VectorXd r = geodesic_distances(mesh, {both}).front();
+  for (Eigen::Index v = 0; v < r.size(); ++v) {
+    const Eigen::RowVector3d p = mesh.positions.row(v);
+    const double exact = std::min((p - Eigen::RowVector3d(5, 20, 0)).norm(),
+                                  (p - Eigen::RowVector3d(35, 20, 0)).norm());
+    EXPECT_NEAR(r(v), exact, 0.04 * 40);
+  }
+}
+
+TEST(GeodesicDistances, SetsMayShareATriangle) {
+  const Mesh mesh = test::grid(21, 21);
+  const SurfacePoint a = closest_point(mesh, {10.2, 10.6, 0});
+  const SurfacePoint b = closest_point(mesh, {10.4, 10.8, 0});
+  ASSERT_EQ(a.triangle, b.triangle);
+  const auto r = geodesic_distances(mesh, {{a}, {b}});
+  EXPECT_LT(std::abs(r[0](0) - std::hypot(10.2, 10.6)), 0.8);
+  EXPECT_LT(std::abs(r[1](0) - std::hypot(10.4, 10.8)), 0.8);
+}
+
+TEST(HopDistances, CountEdges) {
+  const Mesh mesh = test::joined(test::grid(5, 5), test::grid(2, 2));
+  const Eigen::VectorXd hops = hop_distances(mesh, {0});
+  EXPECT_EQ(hops(0), 0);
+  EXPECT_EQ(hops(4), 4);
+  EXPECT_EQ(hops(24), 4);  // the diagonals lead there
+  EXPECT_EQ(hops(25), kInfinity);
+}
+
 TEST(GeodesicDistances, OtherComponentsAreUnreachable) {
   const Mesh mesh = test::joined(test::grid(9, 9), test::sphere(8, 10));
-  const Eigen::VectorXd r = geodesic_distances(mesh, {closest_point(mesh, {4, 4, 0})}).front();
+  const Eigen::VectorXd r = geodesic_distances(mesh, {{closest_point(mesh, {4, 4, 0})}}).front();
   EXPECT_TRUE(r.head(81).allFinite());
   EXPECT_EQ(r(81), kInfinity);
 }

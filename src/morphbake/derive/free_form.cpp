@@ -1,0 +1,105 @@
+#include "morphbake/derive/free_form.h"
+
+#include <fmt/core.h>
+
+#include <cassert>
+#include <string>
+#include <utility>
+
+#include "morphbake/diagnostics/problem.h"
+#include "morphbake/solve/surface_solver.h"
+
+namespace morphbake {
+namespace {
+
+constexpr int kFree = -1, kFixed = -2;
+constexpr double kTolerance = 1e-10;  ///< of the diagonal
+
+std::string name_of_holder(int holder) {
+  return holder == kFixed ? "what is fixed" : fmt::format("handle {}", holder);
+}
+
+/// Who says where each vertex is: the index of a handle, kFixed or kFree.
+std::vector<int> holders_of(const std::vector<bool>& fixed, const std::vector<Handle>& handles) {
+  std::vector<int> holders;
+  for (const bool is_fixed : fixed) holders.push_back(is_fixed ? kFixed : kFree);
+  int shared_count = 0;
+  std::string first;
+  for (std::size_t h = 0; h < handles.size(); ++h) {
+    for (const int vertex : handles[h].vertices) {
+      int& holder = holders.at(static_cast<std::size_t>(vertex));
+      if (holder != kFree && shared_count++ == 0) {
+        first = fmt::format("vertex {} belongs to {} and to handle {}", vertex,
+                            name_of_holder(holder), h);
+      }
+      holder = static_cast<int>(h);
+    }
+  }
+  if (shared_count == 0) return holders;
+  const std::string others =
+      shared_count > 1 ? fmt::format("; so do {} other vertices", shared_count - 1) : "";
+  throw BakeError(Problem{Severity::Error,
+                          "derive.overlapping-handles",
+                          {},
+                          first + others,
+                          "each vertex belongs to one handle, is fixed, or is free"});
+}
+
+/// Displacements of the handles' vertices; 0 elsewhere.
+Positions moves_of(const Mesh& mesh, const std::vector<Handle>& handles) {
+  Positions moves = Positions::Zero(mesh.positions.rows(), 3);
+  for (const Handle& handle : handles) {
+    for (std::size_t k = 0; k < handle.vertices.size(); ++k) {
+      const int vertex = handle.vertices[k];
+      moves.row(vertex) =
+          handle.positions.row(static_cast<Eigen::Index>(k)) - mesh.positions.row(vertex);
+    }
+  }
+  return moves;
+}
+
+/// All vertices of components that no handle touches are held too: they are no unknowns then.
+Constraints constraints_of(const Connectivity& connectivity, const std::vector<int>& holders) {
+  const Components components = connected_components(one_rings(connectivity));
+  std::vector<bool> is_moved(static_cast<std::size_t>(components.count), false);
+  for (std::size_t v = 0; v < holders.size(); ++v) {
+    if (holders[v] >= 0) is_moved[static_cast<std::size_t>(components.label[v])] = true;
+  }
+  Constraints constraints;
+  for (std::size_t v = 0; v < holders.size(); ++v) {
+    constraints.held.push_back(holders[v] != kFree ||
+                               !is_moved[static_cast<std::size_t>(components.label[v])]);
+  }
+  constraints.gauge = Eigen::VectorXd::Zero(connectivity.vertex_count);
+  constraints.anchor.assign(static_cast<std::size_t>(components.count), -1);
+  return constraints;
+}
+
+}  // namespace
+
+Positions free_form(const Mesh& mesh, const std::vector<bool>& fixed,
+                    const std::vector<Handle>& handles, const Observer& observer) {
+  assert(fixed.size() == static_cast<std::size_t>(mesh.positions.rows()));
+  const std::vector<int> holders = holders_of(fixed, handles);
+  MorphableMesh shape;
+  shape.connectivity = {static_cast<int>(mesh.positions.rows()), mesh.triangles};
+  shape.geometries = {mesh.positions};
+  const DisplacementSystem system(shape, constraints_of(shape.connectivity, holders),
+                                  RightHandSide::Edge);
+  const Goal goal = system.goal_of_moves(moves_of(mesh, handles));
+  Positions moved = mesh.positions;
+  if (goal.is_blend()) {
+    moved += goal.blend;
+  } else {
+    SolveOptions options;
+    options.tolerance = kTolerance;
+    const SurfaceSolver solver(system, options, observer);
+    std::vector<Eigen::MatrixXd> x = {system.start(goal)};
+    solver.solve({goal}, x);
+    moved += system.displacement(goal, x[0]);
+  }
+  for (const Handle& handle : handles) moved(handle.vertices, Eigen::all) = handle.positions;
+  return moved;
+}
+
+}  // namespace morphbake

@@ -1,0 +1,106 @@
+# Regions and derived sources on real files, and what is wrong with them: bash regions.sh PROGRAM SCRATCH SHAPES
+. "$(dirname "$0")/testing.sh"
+shapes=$3
+
+recipe() { # NAME, region "r" as JSON, fields of the recipe as JSON
+  jq -n --arg shapes "$shapes" --argjson region "$2" --argjson more "${3-"{}"}" '{version: 1, name: "regions",
+    sources: {base: ($shapes + "/creature_base.glb"), stout: ($shapes + "/creature_stout.glb")},
+    regions: {r: $region, nose: {ball: {on: "base", at: "nose", inner: 0.1, outer: 0.2}}},
+    timeline: {fps: 4, tracks: [{name: "t", region: "r", to: "stout", begin: 0, end: 1}]}} * $more' >"$1.json"
+}
+targets_of() { "$program" inspect "$1" --json | jq -r '.targets | length'; }
+
+# A region that moves makes every frame another: one target a frame, unless tracks are asked for.
+recipe sweep '{"spatial": {"half_space": {"normal": [0, 0, 1], "offset": {"keys": [{"time": 0, "value": -0.6}, {"time": 1, "value": 0.6}]}}, "width": 0.2}}' \
+  '{"timeline": {"tracks": [{"name": "t", "region": "r", "to": "stout", "begin": 0, "duration": 0}], "duration": 1}}'
+run 0 bake sweep.json -o sweep --report sweep/report.json
+[ "$(targets_of sweep/regions.glb)" = 4 ] || wrong "a sweep of 4 frames has $(targets_of sweep/regions.glb) targets"
+run 0 bake sweep.json -o again --threads 1
+cmp -s sweep/regions.glb again/regions.glb || wrong "a sweep differs with one thread"
+jq '.outputs = [{file: "x.glb", targets: "tracks"}]' sweep.json >tracks.json
+run 2 validate tracks.json
+stderr_has "#/outputs/0: error: \"tracks\" targets are shapes that are solved once; here a region moves or floods"
+jq '.hold = ["r"]' sweep.json >held.json
+run 2 validate held.json
+stderr_has "#/hold/0: error: the region r changes with time [recipe.moving-region]"
+# At its end the plane has passed everything: the file shows the other source there.
+jq '.outputs = [{file: "end.glb", still: {at: 1}}, {file: "stout.glb", still: {at: "stout"}}]' sweep.json >stills.json
+run 0 bake stills.json -o stills
+cmp -s stills/end.glb stills/stout.glb || wrong "the sweep does not end in its target"
+
+# A flood takes all in the end, and nothing before it begins.
+recipe flood '{"flood": {"on": "base", "from": ["nose"], "distance": "hops", "softness": 0}}' \
+  '{"outputs": [{"file": "end.glb", "still": {"at": 1}}, {"file": "stout.glb", "still": {"at": "stout"}}, {"file": "flood.glb"}]}'
+run 0 bake flood.json -o flood
+cmp -s flood/end.glb flood/stout.glb || wrong "the flood does not end in its target"
+[ "$(targets_of flood/flood.glb)" = 4 ] || wrong "a flood of 4 frames has $(targets_of flood/flood.glb) targets"
+
+# What is wrong is told with its place.
+refused() { # CODE, TEXT: what validate says of the last recipe
+  run "$1" validate "$name.json"
+  stderr_has "$2"
+}
+name=bad
+recipe bad '{"spatial": {"expression": "x + * y"}}'
+refused 2 '#/regions/r/spatial/expression: error: "x + * y" cannot be read'
+recipe bad '{"spatial": {"expression": "1 / (x - x)"}}'
+refused 2 '#/regions/r/spatial: error: "1 / (x - x)" is'
+recipe bad '{"spatial": {"expression": "sqrt(x) - w"}}'
+refused 2 'w'
+for assignment in 'x = 5' 'y=x' '(x=0)+y'; do
+  recipe bad "{\"spatial\": {\"expression\": \"$assignment\"}}"
+  refused 2 '= would change a variable; == compares'
+done
+recipe bad '{"spatial": {"expression": "x == 0 ? -1 : x >= 1"}}'
+run 0 validate bad.json
+recipe bad '{"spatial": {"expression": "x\u0000 garbage((("}}'
+refused 2 'cannot be read: it has a zero character in it'
+# Combinations of combinations are evaluated once each, not once for each way to them.
+jq '.regions += ([range(40)] | map({key: "u\(.)", value: {union: (if . == 0 then ["r", "nose"] else ["u\(. - 1)", "u\(. - 1)"] end)}}) | from_entries)
+  | .timeline.tracks[0].region = "u39"' sweep.json >nested.json
+run 0 validate nested.json
+# Each included file's names start at its own folder.
+mkdir -p a b
+cp "$shapes"/creature_base.* a/
+cp "$shapes"/creature_stout.* b/
+echo '{"version": 1, "sources": {"base": "creature_base.glb"}}' >a/part.json
+echo '{"version": 1, "sources": {"stout": "creature_stout.glb"}}' >b/part.json
+jq 'del(.sources) | .include = ["a/part.json", "b/part.json"]' sweep.json >parts.json
+run 0 validate parts.json
+# What goes wrong later has its place as well.
+recipe bad '{"spatial": {"expression": "1 / (t - 1)"}}'
+refused 2 '#/regions/r/spatial: error: "1 / (t - 1)" is'
+recipe bad '{"ball": {"on": "base", "at": {"position": [9, 9, 9]}, "inner": 0.1, "outer": 0.2}}'
+refused 2 '#/regions/r/ball/at: error: (9, 9, 9) is'
+stderr_has '[landmarks.off-surface]'
+recipe bad '{"ball": {"on": "low", "at": "nose", "inner": 0.1, "outer": 0.2}}' '{"sources": {"low": {"band": {"of": "base", "last": 20}}}}'
+refused 2 '#/regions/r/ball/on: error: "low" is made from another source'
+echo 'no picture' >grey.png
+recipe bad '{"mask": {"on": "base", "image": "grey.png"}}'
+refused 2 '#/regions/r/mask/image: error:'
+recipe bad '{"rings": {"on": "base", "inner": ["nose", "ear_left", "ear_right"], "outer": ["nose", "ear_left", "ear_right"]}}'
+refused 2 '#/regions/r/rings/outer: error: the outer loop is no ring: it meets the inner loop at'
+recipe bad '{"mask": {"on": "base", "attribute": "_MASK"}}'
+refused 2 '#/regions/r/mask/attribute: error: the mesh of "base" has no attribute "_MASK" [recipe.mask]'
+recipe bad '{"mask": {"on": "base", "attribute": "POSITION", "channel": 3}}'
+refused 2 '#/regions/r/mask/channel: error: POSITION has no channel 3: it has 3 numbers a vertex [recipe.mask]'
+recipe bad '{"mask": {"on": "base", "primitive": 7}}'
+refused 2 '#/regions/r/mask/primitive: error: the mesh of "base" has no primitive 7: it has 1 [recipe.mask]'
+recipe bad '{"mask": {"on": "base", "material": "gold"}}'
+refused 2 'error: the file of "base" has no material "gold" [recipe.mask]'
+recipe bad '{"union": ["nose"]}' '{"sources": {"low": {"band": {"of": "base", "last": 10000000}}}}'
+refused 2 '#/sources/low: error: the band 0 to 10000000 of a mesh with'
+handle='{"region": "nose", "translate": [0, 0, 0.1]}'
+recipe bad '{"ball": {"on": "base", "at": "nose", "inner": 0.2, "outer": 0.3}}' \
+  "{\"sources\": {\"long\": {\"edit\": {\"of\": \"base\", \"region\": \"r\", \"handles\": [$handle, $handle]}}}}"
+refused 2 '#/sources/long: error:'
+stderr_has '[derive.overlapping-handles]'
+recipe bad '{"ball": {"on": "base", "at": "nose", "inner": 0.2, "outer": 0.3}}' \
+  '{"sources": {"flat": {"mirror": {"of": "base", "normal": [0, 0, 1]}}}}'
+refused 2 '[derive.not-symmetric]'
+
+# A primitive is a mask; the fox's scarf or hat is one by its material.
+recipe whole '{"mask": {"on": "base", "primitive": 0}}' '{"outputs": [{"file": "end.glb", "still": {"at": 1}}, {"file": "stout.glb", "still": {"at": "stout"}}]}'
+run 0 bake whole.json -o whole
+cmp -s whole/end.glb whole/stout.glb || wrong "the only primitive is not the whole mesh"
+finish
