@@ -55,8 +55,8 @@ std::function<void(Figures&)> at_each_size(void (*measure)(int, Figures&)) {
   };
 }
 
-/// Keeps freed memory in the process. Else page faults, a third of the time of reading a source,
-/// are timed with whatever happens to need new memory when glibc has given some back.
+/// Keeps freed memory in the process. Else page faults, which take longer than the reading of a
+/// source does, are timed with whatever happens to need new memory when glibc has given some back.
 void keep_memory() {
   mallopt(M_MMAP_MAX, 0);
   mallopt(M_TRIM_THRESHOLD, INT_MAX);
