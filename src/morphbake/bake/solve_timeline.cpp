@@ -10,6 +10,7 @@
 #include "morphbake/json/json.h"
 #include "morphbake/mesh/closest_point.h"
 #include "morphbake/mesh/measures.h"
+#include "morphbake/transition/timeline.h"
 
 namespace morphbake {
 namespace {
@@ -332,9 +333,8 @@ std::unique_ptr<SolvedTimeline> solve_timeline(const Recipe& recipe, const Morph
     solved->frames = combined_frames(solved->shapes, *solved->separable, recipe.timeline);
     records = solved->shapes.records;
   } else {
-    SolvedFrames frames =
-        solved_frames(*solved->solver, reference_positions(mesh, solved->reference),
-                      frame_times(recipe.timeline), changes.at, observer);
+    SolvedFrames frames = solved_frames(*solved->solver, mixed_positions(mesh, solved->reference),
+                                        frame_times(recipe.timeline), changes.at, observer);
     solved->frames = std::move(frames.source);
     records = std::move(frames.records);
   }
@@ -353,7 +353,7 @@ Positions position_at(const Recipe& recipe, const MorphableMesh& mesh, const Reg
   const Eigen::MatrixXd change =
       transition_at(recipe, regions, count, time) - uniform_transition(solved.reference, count);
   std::vector<SolveRecord> records;
-  return reference_positions(mesh, solved.reference) +
+  return mixed_positions(mesh, solved.reference) +
          solve_change(*solved.solver, change, "", records);
 }
 
@@ -365,7 +365,7 @@ Positions solve_state(const Recipe& recipe, const State& state, const MorphableM
   const Observer nobody;
   const SurfaceSolver solver(*system, options, nobody);
   std::vector<SolveRecord> records;
-  return reference_positions(mesh, changes.reference) +
+  return mixed_positions(mesh, changes.reference) +
          solve_change(solver, changes.separable->fields[0].change, state.name, records);
 }
 

@@ -2,18 +2,9 @@
 
 #include <utility>
 
-namespace morphbake {
+#include "morphbake/transition/timeline.h"
 
-Positions reference_positions(const MorphableMesh& mesh, const Shares& shares) {
-  Positions reference = Positions::Zero(mesh.connectivity.vertex_count, 3);
-  for (std::size_t s = 0; s < mesh.geometries.size(); ++s) {
-    for (Eigen::Index axis = 0; axis < 3; ++axis) {
-      const double share = shares(static_cast<Eigen::Index>(s), shares.cols() == 1 ? 0 : axis);
-      if (share != 0) reference.col(axis) += share * mesh.geometries[s].col(axis);
-    }
-  }
-  return reference;
-}
+namespace morphbake {
 
 Positions solve_change(const SurfaceSolver& solver, const Eigen::MatrixXd& change,
                        const std::string& name, std::vector<SolveRecord>& records) {
@@ -34,7 +25,7 @@ SolvedShapes solve_fields(const SurfaceSolver& solver, const MorphableMesh& mesh
     const TransitionField& field = timeline.fields[static_cast<std::size_t>(k)];
     Positions solved = solve_change(solver, field.change, field.name, shapes.records);
     if (k == 0) {
-      shapes.base = reference_positions(mesh, timeline.reference) + solved;
+      shapes.base = mixed_positions(mesh, timeline.reference) + solved;
     } else {
       shapes.names.push_back(field.name);
       shapes.displacements.push_back(std::move(solved));

@@ -23,9 +23,6 @@ struct SolvedShapes {
   std::vector<SolveRecord> records;      ///< one a field that needed a solve
 };
 
-/// sum_s T_s V_s for shares that are the same at every vertex: what displacements start from.
-Positions reference_positions(const MorphableMesh& mesh, const Shares& shares);
-
 /// Displacement from the reference for a change of shares.
 ///
 /// Components in which every vertex changes alike take the linear blend itself, which is the

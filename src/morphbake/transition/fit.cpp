@@ -8,6 +8,7 @@
 #include "morphbake/diagnostics/problem.h"
 #include "morphbake/json/json.h"
 #include "morphbake/mesh/adjacency.h"
+#include "morphbake/transition/timeline.h"
 
 namespace morphbake {
 namespace {
@@ -27,18 +28,6 @@ Eigen::VectorXd ring_weights(const Connectivity& connectivity, const Eigen::Vect
     }
   }
   return weights;
-}
-
-Positions mixed(const MorphableMesh& mesh, const Shares& shares) {
-  Positions sum = Positions::Zero(mesh.connectivity.vertex_count, 3);
-  for (Eigen::Index s = 0; s < shares.rows(); ++s) {
-    for (Eigen::Index axis = 0; axis < 3; ++axis) {
-      const double share = shares(s, shares.cols() == 1 ? 0 : axis);
-      if (share == 0) continue;
-      sum.col(axis) += share * mesh.geometries[static_cast<std::size_t>(s)].col(axis);
-    }
-  }
-  return sum;
 }
 
 /// An edit, what it starts from, and where it stands in the recipe.
@@ -83,7 +72,7 @@ Positions fitted_shape(const Recipe& recipe, const MorphableMesh& mesh, const Re
       ring_weights(mesh.connectivity, fixed_distance(regions, each.edit->region));
   Positions shape;
   if (weights.maxCoeff() > 0) {
-    shape = fitted(mixed(mesh, each.edit->to), mixed(mesh, each.start), weights,
+    shape = fitted(mixed_positions(mesh, each.edit->to), mixed_positions(mesh, each.start), weights,
                    each.edit->fit == Fit::Similarity);
   }
   if (shape.rows() == 0) {

@@ -62,6 +62,18 @@ double track_amount(const Track& track, double time) {
   return track.edit.amount * eased(track.ease, (time - track.begin) / (track.end - track.begin));
 }
 
+Positions mixed_positions(const MorphableMesh& mesh, const Shares& shares) {
+  Positions sum = Positions::Zero(mesh.connectivity.vertex_count, 3);
+  for (Eigen::Index s = 0; s < shares.rows(); ++s) {
+    for (Eigen::Index axis = 0; axis < 3; ++axis) {
+      const double share = shares(s, shares.cols() == 1 ? 0 : axis);
+      if (share == 0) continue;
+      sum.col(axis) += share * mesh.geometries[static_cast<std::size_t>(s)].col(axis);
+    }
+  }
+  return sum;
+}
+
 TransitionState uniform_transition(const Shares& shares, Eigen::Index vertex_count) {
   TransitionState T(shares.rows(), shares.cols() * vertex_count);
   for (Eigen::Index axis = 0; axis < shares.cols(); ++axis) {

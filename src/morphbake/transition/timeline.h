@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "morphbake/connectivity/morphable_mesh.h"
 #include "morphbake/recipe/recipe.h"
 #include "morphbake/transition/region_fields.h"
 
@@ -18,6 +19,9 @@ double eased(const Easing& easing, double share);
 
 /// Amount of a track at `time`, in [0, track.edit.amount].
 double track_amount(const Track& track, double time);
+
+/// sum_s T_s V_s for shares that are the same at every vertex.
+Positions mixed_positions(const MorphableMesh& mesh, const Shares& shares);
 
 /// T with the same shares at every vertex.
 TransitionState uniform_transition(const Shares& shares, Eigen::Index vertex_count);
