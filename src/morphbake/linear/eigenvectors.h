@@ -32,7 +32,7 @@ struct EigenvectorOptions {
 ///
 /// @param count    1 to #V; a vertex without neighbours has degree 1 here
 /// @throws BakeError "linear.no-eigenvectors", "linear.out-of-memory"; Cancelled
-/// @cost  #V count^2; a component whose pairs are nearly all wanted: as a dense matrix, #V^3
+/// @cost  #V count; a component whose pairs are nearly all wanted: as a dense matrix, #V^3
 /// @see   Alexa 2003, section 5.1; Karni and Gotsman 2000
 SpectralBasis smallest_eigenvectors(const OneRings& rings, int count,
                                     const EigenvectorOptions& options = {},

@@ -1,43 +1,35 @@
 #pragma once
 
-#include <memory>
 #include <vector>
 
 #include "morphbake/diagnostics/observer.h"
+#include "morphbake/linear/shifted_factor.h"
 #include "morphbake/mesh/adjacency.h"
 
 namespace morphbake {
-
-/// Degrees as the spectrum takes them: a vertex without neighbours counts as 1, with eigenvalue 0.
-Eigen::VectorXd spectral_degrees(const OneRings& rings);
 
 /// A frequency, and how many eigenvalues lie below it in each component.
 struct Enclosure {
   double lambda = 0;
   std::vector<int> counts;
+
+  int total() const;
 };
 
-/// How many eigenvalues of S = Deg^-1/2 K_L Deg^-1/2 lie below a number, exactly: Sylvester's law
-/// of inertia on L D L^T = K_L - lambda Deg. All lie in [0, 2].
+/// How many eigenvalues of S = Deg^-1/2 K_L Deg^-1/2 lie below a number, exactly: the inertia of
+/// K_L - lambda Deg. All lie in [0, 2].
 class SpectrumCount {
  public:
   explicit SpectrumCount(const OneRings& rings);
-  ~SpectrumCount();
-  SpectrumCount(const SpectrumCount&) = delete;
-  SpectrumCount& operator=(const SpectrumCount&) = delete;
 
-  int vertex_count() const;
+  int vertex_count() const { return static_cast<int>(components_.label.size()); }
 
-  const Components& components() const;
+  const Components& components() const { return components_; }
 
-  /// @param lambda  where a pivot vanishes (a regular mesh at 1), the count is taken up to 1e-4
-  /// above
-  /// @throws BakeError "linear.no-eigenvectors" when every try meets such a pivot
+  /// @return with the lambda that was taken, see ShiftedFactor::factorise
+  /// @throws BakeError "linear.no-eigenvectors"
   /// @cost   a sparse factorisation: 0.7 s at 50k vertices
-  int below(double lambda);
-
-  /// As below, one a component.
-  std::vector<int> below_by_component(double lambda);
+  Enclosure below(double lambda);
 
   /// Finds a frequency with `fewest` to `most` eigenvalues below it, by bisection.
   ///
@@ -49,11 +41,8 @@ class SpectrumCount {
   Enclosure enclose(int fewest, int most, double precision, const Observer& observer);
 
  private:
-  struct Factor;
-  std::unique_ptr<Factor> factor_;
+  Components components_;
+  ShiftedFactor factor_;
 };
-
-/// SpectrumCount::below once.
-int eigenvalues_below(const OneRings& rings, double lambda);
 
 }  // namespace morphbake

@@ -153,34 +153,37 @@ TEST(SmallestEigenvectors, OfALongStrip) {
 TEST(SpectrumCount, CountsEveryEigenvalue) {
   SpectrumCount spectrum(rings_of(test::torus(20, 12)));
   const std::vector<double> values = torus_spectrum(20, 12);
-  EXPECT_EQ(spectrum.below(0), 0);
-  EXPECT_EQ(spectrum.below(1e-9), 1);
-  EXPECT_EQ(spectrum.below(2.1), 240);
+  EXPECT_EQ(spectrum.below(0).total(), 0);
+  EXPECT_EQ(spectrum.below(1e-9).total(), 1);
+  EXPECT_EQ(spectrum.below(2.1).total(), 240);
   for (std::size_t k = 0; k + 1 < values.size(); ++k) {
     if (values[k + 1] - values[k] < 1e-6) continue;
     const double between = (values[k] + values[k + 1]) / 2;
-    EXPECT_EQ(spectrum.below(between), static_cast<int>(k + 1)) << between;
+    EXPECT_EQ(spectrum.below(between).total(), static_cast<int>(k + 1)) << between;
   }
 }
 
 TEST(SpectrumCount, StepsAsideWhereEveryPivotVanishes) {
   // At 1 the diagonal of K_L - Deg is 0 everywhere. No eigenvalue lies within 1e-4 above.
   const std::vector<double> values = torus_spectrum(20, 13);
-  const auto below = std::count_if(values.begin(), values.end(), [](double v) { return v < 1; });
-  EXPECT_EQ(eigenvalues_below(rings_of(test::torus(20, 13)), 1), below);
+  const Enclosure found = SpectrumCount(rings_of(test::torus(20, 13))).below(1);
+  EXPECT_GT(found.lambda, 1);
+  EXPECT_LE(found.lambda, 1 + 1e-4);
+  EXPECT_EQ(found.total(),
+            std::count_if(values.begin(), values.end(), [](double v) { return v < 1; }));
 }
 
 TEST(SpectrumCount, CountsVerticesWithoutTriangles) {
   SpectrumCount spectrum(one_rings({6, test::tetrahedron().triangles}));
-  EXPECT_EQ(spectrum.below_by_component(1e-12), (std::vector<int>{1, 1, 1}));
-  EXPECT_EQ(spectrum.below_by_component(1.4), (std::vector<int>{4, 1, 1}));
+  EXPECT_EQ(spectrum.below(1e-12).counts, (std::vector<int>{1, 1, 1}));
+  EXPECT_EQ(spectrum.below(1.4).counts, (std::vector<int>{4, 1, 1}));
 }
 
 TEST(SpectrumCount, CountsByComponent) {
   SpectrumCount spectrum(rings_of(test::joined(test::tetrahedron(), test::torus(20, 12))));
-  EXPECT_EQ(spectrum.below_by_component(1.3),
-            (std::vector<int>{1, eigenvalues_below(rings_of(test::torus(20, 12)), 1.3)}));
-  EXPECT_EQ(spectrum.below_by_component(1.4)[0], 4);
+  EXPECT_EQ(spectrum.below(1.3).counts,
+            (std::vector<int>{1, SpectrumCount(rings_of(test::torus(20, 12))).below(1.3).total()}));
+  EXPECT_EQ(spectrum.below(1.4).counts[0], 4);
 }
 
 }  // namespace
