@@ -29,7 +29,7 @@ std::vector<NameOrIndex> chosen_nodes(const Arguments& arguments) {
   }
   std::vector<NameOrIndex> nodes;
   for (std::size_t i = 0; given > 0 && i < sources; ++i) {
-    nodes.push_back(node_choice(arguments.nodes[given == 1 ? 0 : i]));
+    nodes.push_back(name_or_index(arguments.nodes[given == 1 ? 0 : i]));
   }
   return nodes;
 }

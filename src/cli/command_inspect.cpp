@@ -31,8 +31,7 @@ struct Facts {
   Eigen::Index triangles = 0;
   std::vector<TargetFacts> targets;
   int moving_vertices = 0;  ///< by any target
-  std::size_t keys = 0;
-  double duration = 0;                       ///< seconds
+  std::vector<WeightsAnimation> animations;
   Eigen::AlignedBox3d bounds;                ///< of the base shape in the scene
   Eigen::Index gpu_bytes = 0;                ///< of the targets' texture in three.js
   std::variant<MeshHealth, Problem> health;  ///< or why the mesh can be no source
@@ -96,8 +95,7 @@ Facts find_facts(const std::filesystem::path& file, const NameOrIndex& node,
   for (std::size_t k = 0; k < mesh.target_names.size(); ++k) {
     facts.targets[k].name = mesh.target_names[k];
   }
-  facts.keys = mesh.weights.times.size();
-  facts.duration = mesh.weights.times.empty() ? 0 : mesh.weights.times.back();
+  facts.animations = weights_animations(document, mesh.node);
   return facts;
 }
 
@@ -130,8 +128,15 @@ std::string as_json(const Facts& facts) {
   json["targets"] = targets;
   json["moving_vertices"] = facts.moving_vertices;
   json["largest_displacement"] = largest_displacement(facts);
-  json["keys"] = facts.keys;
-  json["duration"] = facts.duration;
+  json["animations"] = Json::array();
+  for (const WeightsAnimation& animation : facts.animations) {
+    Json entry;
+    entry["index"] = animation.index;
+    entry["name"] = animation.name;
+    entry["keys"] = animation.keys;
+    entry["duration"] = animation.duration;
+    json["animations"].push_back(entry);
+  }
   json["bounds"]["min"] = to_json(facts.bounds.min());
   json["bounds"]["max"] = to_json(facts.bounds.max());
   json["gpu_bytes"] = facts.gpu_bytes;
@@ -146,6 +151,8 @@ std::string as_json(const Facts& facts) {
   return json.dump(2, ' ', false, Json::error_handler_t::replace);
 }
 
+std::string name_shown(const std::string& name) { return name.empty() ? "(no name)" : name; }
+
 void print_facts(const Facts& facts, Terminal& terminal) {
   const Eigen::Vector3d low = facts.bounds.min();
   const Eigen::Vector3d high = facts.bounds.max();
@@ -156,13 +163,17 @@ void print_facts(const Facts& facts, Terminal& terminal) {
                               low.x(), low.y(), low.z(), high.x(), high.y(), high.z()));
   terminal.result(fmt::format("motion      {} vertices move, by {:.4g} at most",
                               facts.moving_vertices, largest_displacement(facts)));
-  terminal.result(fmt::format("animation   {} keys, {:.4g} s", facts.keys, facts.duration));
+  terminal.result(fmt::format("animations  {}", facts.animations.size()));
+  for (const WeightsAnimation& animation : facts.animations) {
+    terminal.result(fmt::format("  {:<24} {:8} keys, {:.4g} s", name_shown(animation.name),
+                                animation.keys, animation.duration));
+  }
   terminal.result(fmt::format("GPU         {} bytes for the targets in three.js", facts.gpu_bytes));
   terminal.result(fmt::format("targets     {}", facts.targets.size()));
   for (const TargetFacts& target : facts.targets) {
     terminal.result(fmt::format("  {:<24} {:8} vertices, by {:.4g} at most",
-                                target.name.empty() ? "(no name)" : target.name,
-                                target.moving_vertices, target.largest_displacement));
+                                name_shown(target.name), target.moving_vertices,
+                                target.largest_displacement));
   }
   if (const auto* health = std::get_if<MeshHealth>(&facts.health)) {
     for (const std::string& line : health_lines(*health)) terminal.result(line);
@@ -194,7 +205,7 @@ Command add_inspect(CLI::App& program) {
       "\nExample: morphbake inspect morph.glb --json");
   return {parser, [arguments](Terminal& terminal) {
             const Facts facts =
-                find_facts(arguments->file, node_choice(arguments->node), terminal.observer());
+                find_facts(arguments->file, name_or_index(arguments->node), terminal.observer());
             if (arguments->json) return terminal.result(as_json(facts));
             print_facts(facts, terminal);
           }};

@@ -17,6 +17,7 @@ struct Arguments {
   std::filesystem::path file;
   std::filesystem::path stem;
   std::string node;
+  std::string animation;
   std::string size = "512x512";
   int frames = PreviewRequest{}.frames;
   std::vector<std::string> formats = {"gif", "sheet"};
@@ -50,8 +51,9 @@ void run_preview(const Arguments& arguments, Terminal& terminal) {
   std::filesystem::path stem = arguments.stem;
   if (stem.empty()) stem = std::filesystem::path(arguments.file).replace_extension();
   for (const std::filesystem::path& file :
-       preview({arguments.file, arguments.file, stem, node_choice(arguments.node)}, request,
-               options, terminal.observer())) {
+       preview({arguments.file, arguments.file, stem, name_or_index(arguments.node),
+                name_or_index(arguments.animation)},
+               request, options, terminal.observer())) {
     terminal.result(file.string());
   }
 }
@@ -66,6 +68,9 @@ Command add_preview(CLI::App& program) {
                      "Stem of the files to write: STEM.gif, STEM.sheet.png, STEM.frames/ "
                      "(default: the file's own name)");
   add_node(*parser, arguments->node);
+  parser->add_option("--animation", arguments->animation,
+                     "The animation to play, by its name in the file or its index from 0 "
+                     "(default: the last one that moves the mesh's weights)");
   parser->add_option("--size", arguments->size, "WIDTHxHEIGHT in pixels")->capture_default_str();
   parser->add_option("--frames", arguments->frames, "Pictures in the loop")
       ->check(CLI::Range(1, 10000))

@@ -35,7 +35,7 @@ void add_settings(CLI::App& parser, std::vector<std::string>& settings);
 void add_node(CLI::App& parser, std::string& node);
 
 /// What `--node` says: only digits are an index, all else a name, nothing no choice.
-NameOrIndex node_choice(const std::string& node);
+NameOrIndex name_or_index(const std::string& text);
 
 /// The schema of that name that came with this program, installed or as built in the source tree;
 /// empty when there is none.

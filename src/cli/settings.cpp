@@ -19,12 +19,12 @@ void add_node(CLI::App& parser, std::string& node) {
                     "(default: the first one with a mesh)");
 }
 
-NameOrIndex node_choice(const std::string& node) {
-  if (node.empty()) return {};
+NameOrIndex name_or_index(const std::string& text) {
+  if (text.empty()) return {};
   int index = 0;
-  const auto [end, error] = std::from_chars(node.data(), node.data() + node.size(), index);
-  if (error == std::errc() && end == node.data() + node.size()) return index;
-  return node;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), index);
+  if (error == std::errc() && end == text.data() + text.size()) return index;
+  return text;
 }
 
 }  // namespace morphbake::cli

@@ -67,6 +67,26 @@ echo '{"version": 1, "sources": {"base": "creature_base.glb"}}' >a/part.json
 echo '{"version": 1, "sources": {"stout": "creature_stout.glb"}}' >b/part.json
 jq 'del(.sources) | .include = ["a/part.json", "b/part.json"]' sweep.json >parts.json
 run 0 validate parts.json
+# A file that two included ones include counts once.
+jq 'del(.sources, .timeline) | {version, regions}' sweep.json >common.json
+echo '{"version": 1, "include": ["../common.json"], "sources": {"base": "creature_base.glb"}}' >a/part.json
+echo '{"version": 1, "include": ["../common.json"], "sources": {"stout": "creature_stout.glb"}}' >b/part.json
+jq 'del(.sources, .regions) | .include = ["a/part.json", "common.json", "b/part.json"]' sweep.json >diamond.json
+run 0 validate diamond.json
+# More tracks than shapes can be: solved as frames, and as tracks refused.
+jq '.timeline.tracks = [range(300) | {name: "t\(.)", region: "nose", to: "stout", begin: (. / 300), end: ((. + 1) / 300)}]' sweep.json >many.json
+run 0 bake many.json -o many
+[ "$(targets_of many/regions.glb)" = 4 ] || wrong "300 tracks over 4 frames have $(targets_of many/regions.glb) targets"
+jq '.outputs = [{file: "x.glb", targets: "tracks"}]' many.json >many_tracks.json
+run 2 validate many_tracks.json
+stderr_has '#/outputs/0: error: "tracks" targets are shapes that are solved once; here more than 255 are needed'
+# A spatial region on shapes that are all derived lies in the coordinates of their file.
+recipe far '{"spatial": {"half_space": {"normal": [0, 0, 1]}}}' \
+  '{"sources": {"high": {"transform": {"of": "stout", "scale": 2}}}, "timeline": {"start": "high", "tracks": [{"name": "t", "region": "r", "to": "high", "begin": 0, "end": 1}]}, "preview": {"maps": ["regions"]}}'
+jq '.regions.r.spatial.on = ["stout"]' far.json >near.json
+run 0 bake far.json -o far
+run 0 bake near.json -o near
+cmp -s far/regions.regions.png near/regions.regions.png || wrong "a derived shape has other coordinates than its file"
 # What goes wrong later has its place as well.
 recipe bad '{"spatial": {"expression": "1 / (t - 1)"}}'
 refused 2 '#/regions/r/spatial: error: "1 / (t - 1)" is'
@@ -89,11 +109,11 @@ refused 2 '#/regions/r/mask/primitive: error: the mesh of "base" has no primitiv
 recipe bad '{"mask": {"on": "base", "material": "gold"}}'
 refused 2 'error: the file of "base" has no material "gold" [recipe.mask]'
 recipe bad '{"union": ["nose"]}' '{"sources": {"low": {"band": {"of": "base", "last": 10000000}}}}'
-refused 2 '#/sources/low: error: the band 0 to 10000000 of a mesh with'
+refused 2 '#/sources/low/band: error: the band 0 to 10000000 of a mesh with'
 handle='{"region": "nose", "translate": [0, 0, 0.1]}'
 recipe bad '{"ball": {"on": "base", "at": "nose", "inner": 0.2, "outer": 0.3}}' \
   "{\"sources\": {\"long\": {\"edit\": {\"of\": \"base\", \"region\": \"r\", \"handles\": [$handle, $handle]}}}}"
-refused 2 '#/sources/long: error:'
+refused 2 '#/sources/long/edit: error:'
 stderr_has '[derive.overlapping-handles]'
 recipe bad '{"ball": {"on": "base", "at": "nose", "inner": 0.2, "outer": 0.3}}' \
   '{"sources": {"flat": {"mirror": {"of": "base", "normal": [0, 0, 1]}}}}'
@@ -103,4 +123,20 @@ refused 2 '[derive.not-symmetric]'
 recipe whole '{"mask": {"on": "base", "primitive": 0}}' '{"outputs": [{"file": "end.glb", "still": {"at": 1}}, {"file": "stout.glb", "still": {"at": "stout"}}]}'
 run 0 bake whole.json -o whole
 cmp -s whole/end.glb whole/stout.glb || wrong "the only primitive is not the whole mesh"
+# Several animations in one file are listed, and each can be seen.
+recipe clips '{"spatial": {"half_space": {"normal": [0, 0, 1]}, "width": 0.2}}' \
+  '{"outputs": [{"file": "clips.glb", "clips": {"open": {"begin": 0, "end": 0.75}, "shut": {"begin": 0.75, "end": 1}}}]}'
+run 0 bake clips.json -o clips
+"$program" inspect clips/clips.glb --json | jq -e '[.animations[] | [.name, .duration]] == [["open", 0.75], ["shut", 0.25]]' >/dev/null ||
+  wrong "inspect does not list the clips: $("$program" inspect clips/clips.glb --json | jq -c .animations)"
+run 0 inspect clips/clips.glb
+stdout_has 'open  '
+for clip in open shut 1; do
+  run 0 preview clips/clips.glb --animation $clip --size 64x64 --frames 4 --formats sheet -o "clips/$clip"
+done
+cmp -s clips/shut.sheet.png clips/1.sheet.png || wrong "an animation by name and by number differ"
+cmp -s clips/open.sheet.png clips/shut.sheet.png && wrong "two animations look the same"
+run 4 preview clips/clips.glb --animation wave
+stderr_has 'clips.glb#/animations'
+stderr_has '[gltf.no-such-animation]'
 finish

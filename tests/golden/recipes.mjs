@@ -41,7 +41,7 @@ export const RECIPES = {
   'box': spatial({ box: { centre: [0.5, 0, 0], size: keys([[0, [0.5, 1, 1]], [1, [2, 2, 2]]]) } }),
   'sphere': spatial({ sphere: { centre: keys([[0, [-1, 0, 0]], [1, [1, 0, 0]]]), radius: 0.8 } }),
   'cylinder': spatial({ cylinder: { axis: [0, 1, 1], radius: 0.6, length: 1 } }),
-  'ramp': spatial({ ramp: { from: [0, -1, 0], to: [0, 1, 0] } }),
+  'ramp': of({ spatial: { ramp: { from: [0, -1, 0], to: [0, 1, 0] } } }),
   'expression': spatial({ expression: 'x + 0.2 * sin(8 * y) - t + 0.5' }, 0.1, { on: ['orb'] }),
   'flood-hops': of({ flood: { on: 'orb', from: ['nose', 'tail'], distance: 'hops', softness: 0 } }),
   'flood-geodesic': of({ flood: { on: 'orb', from: ['nose'], softness: 0.3 } }),

@@ -76,7 +76,7 @@ class SeparableTimelines : public testing::TestWithParam<Scene (*)()> {};
 TEST_P(SeparableTimelines, FieldsAddUpToTheState) {
   const Scene made = GetParam()();
   const Eigen::Index count = made.mesh.connectivity.vertex_count;
-  const SeparableTimeline separable = separate_timeline(made.recipe, made.regions, count);
+  const SeparableTimeline separable = *separate_timeline(made.recipe, made.regions, count);
   for (const double time : frame_times(made.recipe.timeline)) {
     const Eigen::VectorXd phi = field_coefficients(made.recipe.timeline, separable, time);
     Eigen::MatrixXd sum = uniform_transition(separable.reference, count);
@@ -94,7 +94,7 @@ TEST_P(SeparableTimelines, FieldsAddUpToTheState) {
 TEST_P(SeparableTimelines, CombinedShapesEqualSolvingEachFrame) {
   const Scene made = GetParam()();
   const Eigen::Index count = made.mesh.connectivity.vertex_count;
-  const SeparableTimeline separable = separate_timeline(made.recipe, made.regions, count);
+  const SeparableTimeline separable = *separate_timeline(made.recipe, made.regions, count);
   const Eigen::MatrixXd start = uniform_transition(separable.reference, count);
   const Observer nobody;
   for (const HoldRule rule : {HoldRule::Nothing, HoldRule::Untouched}) {
@@ -127,7 +127,7 @@ TEST(SeparableTimeline, TracksThatFollowOneAnotherNeedNoProducts) {
       track("side", 1, Eigen::Vector3d(0, 0, 1), 1, 2, Ease::Smoothstep),
       track("rest", 2, Eigen::Vector3d(0, 1, 0), 2, 3, Ease::Smoothstep)};
   const SeparableTimeline separable =
-      separate_timeline(made.recipe, made.regions, made.mesh.connectivity.vertex_count);
+      *separate_timeline(made.recipe, made.regions, made.mesh.connectivity.vertex_count);
   EXPECT_EQ(separable.fields.size(), 4U);
 }
 

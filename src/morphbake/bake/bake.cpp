@@ -105,7 +105,7 @@ void validate(const Recipe& asked, const BakeOptions& options, const Observer& o
   ConnectedSources connected = connect_sources(recipe, std::move(loaded), Measuring::Off, observer);
   MorphableMesh mesh = share_sources(connected.sources, connected.report, observer);
   const RegionFields regions = shape_sources(recipe, connected, mesh, observer);
-  check_timeline(recipe, mesh, regions, options.solve);
+  check_timeline(recipe, mesh, regions, options.solve, observer);
 }
 
 }  // namespace morphbake

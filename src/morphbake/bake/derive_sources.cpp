@@ -2,6 +2,8 @@
 
 #include <fmt/core.h>
 
+#include <array>
+#include <string>
 #include <utility>
 
 #include "morphbake/derive/band.h"
@@ -12,7 +14,7 @@
 #include "morphbake/json/json.h"
 #include "morphbake/mesh/closest_point.h"
 #include "morphbake/mesh/measures.h"
-#include "morphbake/transition/rings.h"
+#include "morphbake/mesh/surface_point.h"
 
 namespace morphbake {
 namespace {
@@ -76,13 +78,31 @@ Handle region_handle(const Derivation& from, const EditHandle& handle, const std
   return moved;
 }
 
-/// The vertex nearest to a point of the source with the file.
-Handle point_handle(const Derivation& from, const EditHandle& handle) {
+/// One a handle: the vertex nearest to its point of the source with the file, or -1 for regions.
+std::vector<int> vertices_of(const Derivation& from, const std::vector<EditHandle>& handles) {
   const Mesh root{from.mesh.geometries[static_cast<std::size_t>(from.derived.root)],
                   from.mesh.connectivity.triangles};
-  const SurfacePoint at = closest_point(root, std::get<Eigen::Vector3d>(handle.at));
+  std::vector<int> vertices(handles.size(), -1);
+  std::vector<std::size_t> at_points;
+  for (std::size_t i = 0; i < handles.size(); ++i) {
+    if (handles[i].region < 0) at_points.push_back(i);
+  }
+  Positions wanted(static_cast<Eigen::Index>(at_points.size()), 3);
+  for (Eigen::Index k = 0; k < wanted.rows(); ++k) {
+    const EditHandle& handle = handles[at_points[static_cast<std::size_t>(k)]];
+    wanted.row(k) = std::get<Eigen::Vector3d>(handle.at).transpose();
+  }
+  if (at_points.empty()) return vertices;
+  const std::vector<SurfacePoint> found = closest_points(root, wanted);
+  for (std::size_t k = 0; k < found.size(); ++k) {
+    vertices[at_points[k]] = nearest_corner(root, found[k]);
+  }
+  return vertices;
+}
+
+Handle vertex_handle(const Derivation& from, const EditHandle& handle, int vertex) {
   Handle moved;
-  moved.vertices = {nearest_corner(root, at)};
+  moved.vertices = {vertex};
   const Positions rest = from.shape.positions(moved.vertices, Eigen::all);
   if (const auto* target = std::get_if<HandleTarget>(&handle.to)) {
     moved.positions = std::get<Eigen::Vector3d>(target->at).transpose();
@@ -97,12 +117,13 @@ Positions edited(const Derivation& from, const EditSource& edit, const Observer&
   const Eigen::VectorXd& d = still_distance(from, edit.region, "/edit/region");
   std::vector<bool> fixed;
   for (const double each : d) fixed.push_back(each >= 1 - kInside);
+  const std::vector<int> vertices = vertices_of(from, edit.handles);
   std::vector<Handle> handles;
   for (std::size_t i = 0; i < edit.handles.size(); ++i) {
     const EditHandle& handle = edit.handles[i];
     const std::string field = child_pointer("/edit/handles", i);
     handles.push_back(handle.region >= 0 ? region_handle(from, handle, field)
-                                         : point_handle(from, handle));
+                                         : vertex_handle(from, handle, vertices[i]));
   }
   return free_form(from.shape, fixed, handles, observer);
 }
@@ -131,12 +152,19 @@ Positions geometry_of(const Derivation& from, const Observer& observer) {
   return transformed(from.shape, transform_of(std::get<TransformSource>(how).movement, from.unit));
 }
 
+/// The field of a source that says how it is derived.
+std::string field_of(const DerivedSource& derived) {
+  constexpr std::array kFields = {"/band", "/edit", "/mirror", "/transform"};
+  return kFields[derived.how.index()];
+}
+
 /// The same problems, at the source's place in the recipe where they have none.
 BakeError placed(const BakeError& error, const Derivation& from) {
   std::vector<Problem> problems = error.problems();
   for (Problem& problem : problems) {
     if (!problem.location.file.empty()) continue;
-    problem.location = location_in(from.recipe, child_pointer("/sources", from.derived.name));
+    problem.location = location_in(
+        from.recipe, child_pointer("/sources", from.derived.name) + field_of(from.derived));
   }
   return BakeError(std::move(problems));
 }

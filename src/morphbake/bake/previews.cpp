@@ -38,8 +38,8 @@ std::vector<Image> render(const PreviewPaths& paths, const TurntableOptions& loo
   Observer renaming = observer;
   renaming.on_problem = [&](const Problem& problem) { report(observer, as_shown(problem, paths)); };
   try {
-    return render_turntable(read_animated_mesh(paths.gltf_file, {.node = paths.node}), look,
-                            renaming);
+    return render_turntable(
+        read_animated_mesh(paths.gltf_file, {.node = paths.node}, paths.animation), look, renaming);
   } catch (const BakeError& error) {
     std::vector<Problem> problems;
     for (const Problem& problem : error.problems()) problems.push_back(as_shown(problem, paths));

@@ -17,6 +17,7 @@ struct PreviewPaths {
   std::filesystem::path shown;  ///< what messages call that file
   std::filesystem::path stem;   ///< "dir/name"
   NameOrIndex node = {};        ///< whose mesh is shown; none: the first one
+  NameOrIndex animation = {};   ///< of its weights; none: the last one
 };
 
 /// The look of a recipe's turntable.

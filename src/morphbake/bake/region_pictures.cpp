@@ -82,17 +82,48 @@ Image cell(const AnimatedMesh& mesh, double azimuth, const std::string& title,
   return picture;
 }
 
+struct HeatColours {
+  Eigen::RowVector3f inside, middle, outside;  // linear
+};
+
+const HeatColours kHeat = {{0.62F, 0.02F, 0.02F}, {0.80F, 0.55F, 0.08F}, {0.42F, 0.46F, 0.50F}};
+
 /// Grey outside, yellow half-way, red inside.
 Colours heat(const Eigen::VectorXd& d) {
-  const Eigen::RowVector3f inside(0.62F, 0.02F, 0.02F), middle(0.80F, 0.55F, 0.08F),
-      outside(0.42F, 0.46F, 0.50F);
   Colours colours(d.size(), 3);
   for (Eigen::Index v = 0; v < d.size(); ++v) {
     const auto share = static_cast<float>(d(v));
-    colours.row(v) = share < 0.5F ? (1 - 2 * share) * inside + 2 * share * middle
-                                  : (2 - 2 * share) * middle + (2 * share - 1) * outside;
+    colours.row(v) = share < 0.5F
+                         ? (1 - 2 * share) * kHeat.inside + 2 * share * kHeat.middle
+                         : (2 - 2 * share) * kHeat.middle + (2 * share - 1) * kHeat.outside;
   }
   return colours;
+}
+
+struct LegendEntry {
+  std::array<std::uint8_t, 3> colour;  // sRGB
+  std::string text;
+};
+
+void draw_legend(const std::vector<LegendEntry>& entries, Image& sheet) {
+  int left = 14;
+  for (std::size_t i = 0; i < entries.size(); ++i) {
+    const int width = text_size(entries[i].text, 2).x() + 44;
+    const bool is_last = i + 1 == entries.size();
+    if (left + width + (is_last ? 0 : kMoreWidth) > sheet.width) {
+      const std::string more = fmt::format("and {} more", entries.size() - i);
+      draw_text(sheet, more, {left, sheet.height - 27}, 2, kText);
+      break;
+    }
+    const auto middle = static_cast<float>(sheet.height - 20);
+    draw_ring(sheet, {static_cast<float>(left) + 8, middle}, 0, 8, {entries[i].colour, 1});
+    draw_text(sheet, entries[i].text, {left + 22, sheet.height - 27}, 2, kText);
+    left += width;
+  }
+}
+
+std::array<std::uint8_t, 3> srgb(const Eigen::RowVector3f& colour) {
+  return {linear_to_srgb(colour(0)), linear_to_srgb(colour(1)), linear_to_srgb(colour(2))};
 }
 
 /// Degrees around Y from which most of the inside is seen.
@@ -154,7 +185,11 @@ Image region_sheet(const Recipe& recipe, const MorphableMesh& mesh, const Region
                            recipe.regions[r].name + when, options));
     }
   }
-  return contact_sheet(cells, std::min(kColumns, static_cast<int>(cells.size())), kCell);
+  Image sheet = contact_sheet(cells, std::min(kColumns, static_cast<int>(cells.size())), kCell);
+  draw_legend(
+      {{srgb(kHeat.inside), "all"}, {srgb(kHeat.middle), "half"}, {srgb(kHeat.outside), "none"}},
+      sheet);
+  return sheet;
 }
 
 namespace {
@@ -174,21 +209,12 @@ Colours mixed_colours(const TransitionState& T, Eigen::Index count) {
   return colours.cwiseMin(1);
 }
 
-void draw_legend(const MorphableMesh& mesh, Image& sheet) {
-  int left = 14;
+std::vector<LegendEntry> legend_of(const MorphableMesh& mesh) {
+  std::vector<LegendEntry> entries;
   for (std::size_t s = 0; s < mesh.names.size(); ++s) {
-    const int width = text_size(mesh.names[s], 2).x() + 44;
-    const bool is_last = s + 1 == mesh.names.size();
-    if (left + width + (is_last ? 0 : kMoreWidth) > sheet.width) {
-      const std::string more = fmt::format("and {} more", mesh.names.size() - s);
-      draw_text(sheet, more, {left, sheet.height - 27}, 2, kText);
-      break;
-    }
-    const auto middle = static_cast<float>(sheet.height - 20);
-    draw_ring(sheet, {static_cast<float>(left) + 8, middle}, 0, 8, {source_colour(s), 1});
-    draw_text(sheet, mesh.names[s], {left + 22, sheet.height - 27}, 2, kText);
-    left += width;
+    entries.push_back({source_colour(s), mesh.names[s]});
   }
+  return entries;
 }
 
 }  // namespace
@@ -206,7 +232,7 @@ Image share_sheet(const Recipe& recipe, const MorphableMesh& mesh, const RegionF
                          options.turntable.azimuth, fmt::format("{:.2f} s", time), options));
   }
   Image sheet = contact_sheet(cells, kColumns, kCell);
-  draw_legend(mesh, sheet);
+  draw_legend(legend_of(mesh), sheet);
   return sheet;
 }
 

@@ -10,6 +10,7 @@
 #include "morphbake/json/json.h"
 #include "morphbake/mesh/closest_point.h"
 #include "morphbake/mesh/measures.h"
+#include "morphbake/mesh/surface_point.h"
 #include "morphbake/transition/timeline.h"
 
 namespace morphbake {
@@ -17,12 +18,6 @@ namespace {
 
 constexpr double kInside = 1e-12;    // d of vertices that count as inside a held region
 constexpr double kChanging = 1e-12;  // shares that differ by no more are the same
-
-SurfacePoint point_of(const MorphableMesh& mesh, const Gauge& gauge) {
-  const Mesh surface{mesh.geometries[static_cast<std::size_t>(gauge.source)],
-                     mesh.connectivity.triangles};
-  return closest_point(surface, std::get<Eigen::Vector3d>(gauge.at));
-}
 
 Eigen::VectorXd gauge_weights(const Recipe& recipe, const MorphableMesh& mesh,
                               const RegionFields& regions) {
@@ -35,13 +30,15 @@ Eigen::VectorXd gauge_weights(const Recipe& recipe, const MorphableMesh& mesh,
     }
     return weights.array() * (1 - fixed_distance(regions, gauge.region).array());
   }
-  const SurfacePoint point = point_of(mesh, gauge);
-  Eigen::Index strongest = 0;
-  point.barycentric.maxCoeff(&strongest);
+  const Mesh surface{mesh.geometries[static_cast<std::size_t>(gauge.source)],
+                     mesh.connectivity.triangles};
+  const SurfacePoint point = closest_point(surface, std::get<Eigen::Vector3d>(gauge.at));
+  if (gauge.kind == Gauge::Kind::Anchor) {
+    weights(nearest_corner(surface, point)) = 1;
+    return weights;
+  }
   for (Eigen::Index k = 0; k < 3; ++k) {
-    const int vertex = mesh.connectivity.triangles(point.triangle, k);
-    const bool is_anchor = gauge.kind == Gauge::Kind::Anchor;
-    weights(vertex) = is_anchor ? (k == strongest ? 1 : 0) : point.barycentric(k);
+    weights(surface.triangles(point.triangle, k)) = point.barycentric(k);
   }
   return weights;
 }
@@ -84,12 +81,14 @@ TimelineChanges changes_of_fields(SeparableTimeline separable) {
   return changes;
 }
 
-/// Looks at every frame: regions that move leave no other way.
-void survey_frames(const Timeline& timeline, Eigen::Index count, TimelineChanges& changes) {
+/// Looks at every frame: where fields are not known there is no other way.
+void survey_frames(const Timeline& timeline, Eigen::Index count, const Observer& observer,
+                   TimelineChanges& changes) {
   UntouchedVertices untouched(count);
   changes.first_change.assign(static_cast<std::size_t>(count), -1);
   Eigen::MatrixXd start;
   for (const double time : frame_times(timeline)) {
+    stop_if_cancelled(observer);
     const Eigen::MatrixXd change = changes.at(time);
     untouched.add(change);
     if (start.size() == 0) start = change;
@@ -108,10 +107,11 @@ Shares start_of(const Recipe& recipe) {
   return recipe.states[static_cast<std::size_t>(timeline.keys.front().state)].mix;
 }
 
-TimelineChanges changes_of(const Recipe& recipe, const RegionFields& regions, Eigen::Index count) {
+TimelineChanges changes_of(const Recipe& recipe, const RegionFields& regions, Eigen::Index count,
+                           std::optional<SeparableTimeline> separable, const Observer& observer) {
   TimelineChanges changes;
-  if (is_separable(recipe, regions)) {
-    changes = changes_of_fields(separate_timeline(recipe, regions, count));
+  if (separable) {
+    changes = changes_of_fields(std::move(*separable));
   } else {
     changes.reference = start_of(recipe);
   }
@@ -119,7 +119,7 @@ TimelineChanges changes_of(const Recipe& recipe, const RegionFields& regions, Ei
                 start = uniform_transition(changes.reference, count)](double time) {
     return Eigen::MatrixXd(transition_at(recipe, regions, count, time) - start);
   };
-  if (!changes.separable) survey_frames(recipe.timeline, count, changes);
+  if (!changes.separable) survey_frames(recipe.timeline, count, observer, changes);
   return changes;
 }
 
@@ -178,9 +178,8 @@ std::unique_ptr<DisplacementSystem> make_system(const Recipe& recipe, const Morp
                                               is_anchored ? RightHandSide::Vertex : rule);
 }
 
-/// Targets that are shapes need a timeline that is made of shapes.
-void check_targets(const Recipe& recipe, bool is_made_of_shapes, const std::string& reason) {
-  if (is_made_of_shapes) return;
+/// Refuses targets that are shapes, for a reason: without shapes there are only frames.
+void refuse_tracks(const Recipe& recipe, const std::string& reason) {
   for (std::size_t i = 0; i < recipe.outputs.size(); ++i) {
     const Output& output = recipe.outputs[i];
     if (output.still || output.targets != TargetKind::Tracks) continue;
@@ -218,14 +217,24 @@ void check_still_regions(const Recipe& recipe, const RegionFields& regions) {
   if (!problems.empty()) throw BakeError(std::move(problems));
 }
 
-/// Whether shapes or frames are solved, once all is checked.
-bool solves_shapes(const Recipe& recipe, const RegionFields& regions, const SolveOptions& options) {
+/// The timeline as shapes, where it is made of them, once all is checked.
+std::optional<SeparableTimeline> shapes_of(const Recipe& recipe, const RegionFields& regions,
+                                           Eigen::Index count, const SolveOptions& options) {
   check_still_regions(recipe, regions);
-  const bool separable = is_separable(recipe, regions);
-  check_targets(recipe, separable, "here a region moves or floods, so every frame is another");
-  check_targets(recipe, !options.every_frame,
-                "the option /solve/every_frame solves frames instead");
-  return separable && !options.every_frame;
+  if (options.every_frame) {
+    refuse_tracks(recipe, "the option /solve/every_frame solves frames instead");
+  }
+  if (!is_separable(recipe, regions)) {
+    refuse_tracks(recipe, "here a region moves or floods, so every frame is another");
+    return std::nullopt;
+  }
+  std::optional<SeparableTimeline> separable = separate_timeline(recipe, regions, count);
+  if (!separable) {
+    refuse_tracks(recipe, fmt::format("here more than {} are needed: one a track, and one for each "
+                                      "combination of tracks that overlap in space and time",
+                                      kMostFields - 1));
+  }
+  return separable;
 }
 
 double mean_edge(const MorphableMesh& mesh, const Positions& positions) {
@@ -275,6 +284,7 @@ void warn_of_spike(const Recipe& recipe, const MorphableMesh& mesh, const Solved
   const ImbalanceAt imbalance_at = imbalance_of(recipe, solved, changes, component);
   double largest = 0, when = 0;
   for (const double time : frame_times(recipe.timeline)) {
+    stop_if_cancelled(observer);
     const double imbalance = imbalance_at(time).norm();
     if (imbalance <= largest) continue;
     largest = imbalance;
@@ -309,9 +319,10 @@ SolveReport report_of(const SolvedTimeline& solved, std::vector<SolveRecord> rec
 }  // namespace
 
 void check_timeline(const Recipe& recipe, const MorphableMesh& mesh, const RegionFields& regions,
-                    const SolveOptions& options) {
-  solves_shapes(recipe, regions, options);
-  const TimelineChanges changes = changes_of(recipe, regions, mesh.connectivity.vertex_count);
+                    const SolveOptions& options, const Observer& observer) {
+  const Eigen::Index count = mesh.connectivity.vertex_count;
+  const TimelineChanges changes =
+      changes_of(recipe, regions, count, shapes_of(recipe, regions, count, options), observer);
   const auto system = make_system(recipe, mesh, regions, changes, options.right_hand_side);
   choose_solver(*system, options);
 }
@@ -320,15 +331,16 @@ std::unique_ptr<SolvedTimeline> solve_timeline(const Recipe& recipe, const Morph
                                                const RegionFields& regions,
                                                const SolveOptions& options,
                                                const Observer& observer) {
-  const bool by_shapes = solves_shapes(recipe, regions, options);
-  TimelineChanges changes = changes_of(recipe, regions, mesh.connectivity.vertex_count);
+  const Eigen::Index count = mesh.connectivity.vertex_count;
+  TimelineChanges changes =
+      changes_of(recipe, regions, count, shapes_of(recipe, regions, count, options), observer);
   auto solved = std::make_unique<SolvedTimeline>();
   solved->reference = changes.reference;
   solved->system = make_system(recipe, mesh, regions, changes, options.right_hand_side);
   solved->separable = std::move(changes.separable);
   solved->solver = std::make_unique<SurfaceSolver>(*solved->system, options, observer);
   std::vector<SolveRecord> records;
-  if (by_shapes) {
+  if (solved->separable && !options.every_frame) {
     solved->shapes = solve_fields(*solved->solver, mesh, *solved->separable, observer);
     solved->frames = combined_frames(solved->shapes, *solved->separable, recipe.timeline);
     records = solved->shapes.records;

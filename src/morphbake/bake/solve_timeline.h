@@ -12,7 +12,7 @@ namespace morphbake {
 /// alone.
 struct SolvedTimeline {
   Shares reference;                            ///< what displacements start from
-  std::optional<SeparableTimeline> separable;  ///< none when regions move or flood
+  std::optional<SeparableTimeline> separable;  ///< none when regions move or flood, or too many
   std::unique_ptr<DisplacementSystem> system;
   std::unique_ptr<SurfaceSolver> solver;
   SolvedShapes shapes;  ///< empty when frames were solved
@@ -32,9 +32,9 @@ std::unique_ptr<SolvedTimeline> solve_timeline(const Recipe& recipe, const Morph
 /// Finds what solve_timeline would refuse before it solves.
 ///
 /// @throws BakeError "recipe.held-region-changes", "recipe.moving-region", "recipe.needs-frames",
-///         "options.cannot-hold"
+///         "options.cannot-hold"; Cancelled
 void check_timeline(const Recipe& recipe, const MorphableMesh& mesh, const RegionFields& regions,
-                    const SolveOptions& options);
+                    const SolveOptions& options, const Observer& observer);
 
 /// The shape of the timeline at `time`: #V by 3, scene space.
 Positions position_at(const Recipe& recipe, const MorphableMesh& mesh, const RegionFields& regions,

@@ -138,7 +138,7 @@ class Splitter {
   }
 
   Positions by_eigenvectors(int count) const {
-    return projected(basis_, spectral_degrees(rings_), count, shape_);
+    return projected(basis_, spectral_degrees(rings_), whole_count(basis_, count), shape_);
   }
 
   Positions by_filter(int count) const {

@@ -34,8 +34,9 @@ struct BandOptions {
 ///
 /// A cut at up to BandOptions::exact_limit eigenvectors (fewer on meshes of more than 500k
 /// vertices: they must fit into memory) is exact. A filter is a Chebyshev polynomial of L: a step
-/// smoothed by the error function in acos(1 - lambda), at a frequency that SpectrumCount finds. A
-/// cut through an eigenvalue that occurs several times keeps some part of its space.
+/// smoothed by the error function in acos(1 - lambda), at a frequency that SpectrumCount finds. An
+/// exact cut through an eigenvalue that occurs several times is moved up behind all of it: which of
+/// its vectors came first would be chance.
 ///
 /// @return #V by 3
 /// @throws BakeError "derive.band-out-of-range", "linear.no-eigenvectors"; Cancelled

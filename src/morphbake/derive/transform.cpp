@@ -4,18 +4,9 @@
 #include <string>
 
 #include "morphbake/derive/direction.h"
-#include "morphbake/mesh/measures.h"
+#include "morphbake/mesh/centre_of_mass.h"
 
 namespace morphbake {
-
-Eigen::Vector3d centre_of_mass(const Mesh& mesh) {
-  if (mesh.positions.rows() == 0) return Eigen::Vector3d::Zero();
-  // A third of each triangle's area at each corner has the same centre.
-  Eigen::VectorXd weights = vertex_areas(mesh.positions, mesh.triangles);
-  if (!(weights.sum() > 0)) weights.setOnes(mesh.positions.rows());
-  weights /= weights.sum();
-  return mesh.positions.transpose() * weights;
-}
 
 Eigen::Affine3d map_of(const Transform& transform, const Eigen::Vector3d& centre) {
   Eigen::Matrix3d linear = transform.scale * Eigen::Matrix3d::Identity();
@@ -44,7 +35,7 @@ Positions mapped(const Positions& positions, const Eigen::Affine3d& map) {
 }
 
 Positions transformed(const Mesh& mesh, const Transform& transform) {
-  return mapped(mesh.positions, map_of(transform, centre_of_mass(mesh)));
+  return mapped(mesh.positions, map_of(transform, centre_of_mass(mesh.positions, mesh.triangles)));
 }
 
 }  // namespace morphbake

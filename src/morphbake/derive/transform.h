@@ -17,10 +17,6 @@ struct Transform {
   std::optional<Eigen::Vector3d> about;  ///< none: the centre of mass
 };
 
-/// Centre of mass of a thin shell: triangles weighted by area; without any area, the mean of the
-/// vertices. 0 for no vertices.
-Eigen::Vector3d centre_of_mass(const Mesh& mesh);
-
 /// @param centre  taken where `transform` has no `about`
 /// @throws BakeError "derive.no-direction" when an axis that is needed has no length
 Eigen::Affine3d map_of(const Transform& transform, const Eigen::Vector3d& centre);

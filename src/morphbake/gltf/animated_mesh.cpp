@@ -8,6 +8,7 @@
 
 #include "morphbake/gltf/accessors.h"
 #include "morphbake/gltf/animation_curve.h"
+#include "morphbake/gltf/names.h"
 #include "morphbake/gltf/nodes.h"
 #include "morphbake/gltf/primitive_geometry.h"
 #include "morphbake/gltf/resources.h"
@@ -148,6 +149,15 @@ AnimationCurve constant_weights(const Eigen::VectorXd& rest) {
   return curve;
 }
 
+/// The first channel of an animation that moves the weights of `node`, or none.
+const tinygltf::AnimationChannel* weights_channel(const tinygltf::Animation& animation, int node) {
+  const auto found =
+      std::ranges::find_if(animation.channels, [node](const tinygltf::AnimationChannel& channel) {
+        return channel.target_node == node && channel.target_path == "weights";
+      });
+  return found == animation.channels.end() ? nullptr : &*found;
+}
+
 /// The last animations that move the weights of `node`, in their order: a bake appends its own to
 /// those of the source.
 std::vector<AnimationCurve> last_weights(const GltfDocument& document, int node, int targets,
@@ -155,14 +165,26 @@ std::vector<AnimationCurve> last_weights(const GltfDocument& document, int node,
   std::vector<AnimationCurve> curves;
   for (std::size_t a = document.model.animations.size(); targets > 0 && a-- > 0;) {
     if (curves.size() == most) break;
-    for (const tinygltf::AnimationChannel& channel : document.model.animations[a].channels) {
-      if (channel.target_node != node || channel.target_path != "weights") continue;
-      curves.push_back(read_curve(document, static_cast<int>(a), channel.sampler, targets));
-      break;
-    }
+    const auto* channel = weights_channel(document.model.animations[a], node);
+    if (channel == nullptr) continue;
+    curves.push_back(read_curve(document, static_cast<int>(a), channel->sampler, targets));
   }
   std::ranges::reverse(curves);
   return curves;
+}
+
+AnimationCurve chosen_weights(const GltfDocument& document, int node, int targets,
+                              const NameOrIndex& choice) {
+  const auto& animations = document.model.animations;
+  const int index =
+      index_of_choice(document, choice, names_of(animations), "animation", "/animations");
+  const auto* channel = weights_channel(animations[static_cast<std::size_t>(index)], node);
+  if (channel != nullptr && targets > 0) {
+    return read_curve(document, index, channel->sampler, targets);
+  }
+  fail_at(document, child_pointer("/animations", static_cast<std::size_t>(index)),
+          "gltf.no-such-animation", fmt::format("the animation moves no weights of node {}", node),
+          "`morphbake inspect` lists those that do");
 }
 
 WrittenMesh read_mesh(const GltfDocument& document, const MeshNode& at, std::size_t clips) {
@@ -191,14 +213,43 @@ WrittenMesh read_mesh(const GltfDocument& document, const MeshNode& at, std::siz
 
 }  // namespace
 
-AnimatedMesh read_animated_mesh(const std::filesystem::path& file, const MeshChoice& choice) {
-  return read_animated_mesh(open_gltf(file), choice);
+AnimatedMesh read_animated_mesh(const std::filesystem::path& file, const MeshChoice& choice,
+                                const NameOrIndex& animation) {
+  return read_animated_mesh(open_gltf(file), choice, animation);
 }
 
-AnimatedMesh read_animated_mesh(const GltfFile& file, const MeshChoice& choice) {
+AnimatedMesh read_animated_mesh(const GltfFile& file, const MeshChoice& choice,
+                                const NameOrIndex& animation) {
   const MeshNode at = choose_mesh_node(*file, choice, Ambiguity::TakeFirst);
   check_mesh_size(*file, at.mesh);
-  return read_mesh(*file, at, 1).mesh;
+  AnimatedMesh mesh = read_mesh(*file, at, is_chosen(animation) ? 0 : 1).mesh;
+  if (is_chosen(animation)) {
+    const auto targets = static_cast<int>(mesh.weights.values.cols());
+    mesh.weights = chosen_weights(*file, at.node, targets, animation);
+  }
+  return mesh;
+}
+
+std::vector<WeightsAnimation> weights_animations(const GltfFile& file, int node) {
+  std::vector<WeightsAnimation> found;
+  std::map<int, WeightsAnimation> by_input;  // keys that many animations may share
+  const auto& animations = file->model.animations;
+  for (std::size_t a = 0; a < animations.size(); ++a) {
+    const auto* channel = weights_channel(animations[a], node);
+    if (channel == nullptr) continue;
+    const std::string pointer = child_pointer("/animations", a) + "/samplers";
+    const int input = animation_sampler(*file, static_cast<int>(a), channel->sampler).input;
+    const auto [entry, is_new] = by_input.try_emplace(input);
+    if (is_new) {
+      const std::vector<float> times = read_floats(*file, input, 1, pointer);
+      entry->second.keys = times.size();
+      entry->second.duration = times.empty() ? 0 : times.back();
+    }
+    WeightsAnimation& animation = found.emplace_back(entry->second);
+    animation.index = static_cast<int>(a);
+    animation.name = animations[a].name;
+  }
+  return found;
 }
 
 WrittenMesh read_written_mesh(const std::string& glb, const std::filesystem::path& name, int node,

@@ -52,13 +52,30 @@ struct AnimatedMesh {
   AnimationCurve weights;  ///< one number a target; without animation the weights at rest
 };
 
-/// Reads a node's mesh from a .glb or .gltf, with its targets and the last animation of their
-/// weights. Skins are at rest: the mesh is as it was bound.
+/// Reads a node's mesh from a .glb or .gltf, with its targets and an animation of their weights.
+/// Skins are at rest: the mesh is as it was bound.
 ///
-/// @param choice  which node: none chosen is the first of the scene that has a mesh
-/// @throws BakeError "gltf...." as open_gltf, choose_mesh_node and read_source_geometry
-AnimatedMesh read_animated_mesh(const std::filesystem::path& file, const MeshChoice& choice = {});
-AnimatedMesh read_animated_mesh(const GltfFile& file, const MeshChoice& choice = {});
+/// @param choice     which node: none chosen is the first of the scene that has a mesh
+/// @param animation  none chosen is the last one that moves the node's weights
+/// @throws BakeError "gltf...." as open_gltf, choose_mesh_node and read_source_geometry;
+///         "gltf.no-such-animation", also for one that moves no weights of the node
+AnimatedMesh read_animated_mesh(const std::filesystem::path& file, const MeshChoice& choice = {},
+                                const NameOrIndex& animation = {});
+AnimatedMesh read_animated_mesh(const GltfFile& file, const MeshChoice& choice = {},
+                                const NameOrIndex& animation = {});
+
+/// What one animation of a file does to the weights of a node.
+struct WeightsAnimation {
+  int index = 0;  ///< of the file
+  std::string name;
+  std::size_t keys = 0;
+  double duration = 0;  ///< seconds: its last key
+};
+
+/// All animations that move the weights of a node, in the file's order.
+///
+/// @throws BakeError "gltf.invalid", "gltf.accessor"
+std::vector<WeightsAnimation> weights_animations(const GltfFile& file, int node);
 
 /// What write_morph_glb() wrote.
 struct WrittenMesh {

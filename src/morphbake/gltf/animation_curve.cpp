@@ -32,6 +32,10 @@ KeySpan span_at(const std::vector<float>& times, double time) {
   return {next - 1, next, (time - begin) / seconds, seconds};
 }
 
+std::string sampler_pointer(int animation, int sampler) {
+  return fmt::format("/animations/{}/samplers/{}", animation, sampler);
+}
+
 Interpolation interpolation_of(const std::string& name) {
   if (name == "STEP") return Interpolation::Step;
   return name == "CUBICSPLINE" ? Interpolation::CubicSpline : Interpolation::Linear;
@@ -68,13 +72,19 @@ int check_output(const GltfDocument& document, const tinygltf::AnimationSampler&
 
 }  // namespace
 
-AnimationCurve read_curve(const GltfDocument& document, int animation, int sampler, int columns) {
+const tinygltf::AnimationSampler& animation_sampler(const GltfDocument& document, int animation,
+                                                    int sampler) {
   const auto& samplers = document.model.animations[static_cast<std::size_t>(animation)].samplers;
-  const std::string pointer = fmt::format("/animations/{}/samplers/{}", animation, sampler);
   if (sampler < 0 || static_cast<std::size_t>(sampler) >= samplers.size()) {
-    fail_at(document, pointer, "gltf.invalid", "the sampler does not exist");
+    fail_at(document, sampler_pointer(animation, sampler), "gltf.invalid",
+            "the sampler does not exist");
   }
-  const tinygltf::AnimationSampler& source = samplers[static_cast<std::size_t>(sampler)];
+  return samplers[static_cast<std::size_t>(sampler)];
+}
+
+AnimationCurve read_curve(const GltfDocument& document, int animation, int sampler, int columns) {
+  const tinygltf::AnimationSampler& source = animation_sampler(document, animation, sampler);
+  const std::string pointer = sampler_pointer(animation, sampler);
   AnimationCurve curve;
   curve.interpolation = interpolation_of(source.interpolation);
   curve.times = read_floats(document, source.input, 1, pointer + "/input");

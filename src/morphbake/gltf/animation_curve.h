@@ -9,6 +9,10 @@
 
 namespace morphbake {
 
+/// @throws BakeError "gltf.invalid" where there is none
+const tinygltf::AnimationSampler& animation_sampler(const GltfDocument& document, int animation,
+                                                    int sampler);
+
 /// The numbers of a sampler.
 ///
 /// @param columns  numbers a key

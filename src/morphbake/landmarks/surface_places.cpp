@@ -8,6 +8,7 @@
 #include "morphbake/mesh/boundary.h"
 #include "morphbake/mesh/closest_point.h"
 #include "morphbake/mesh/measures.h"
+#include "morphbake/mesh/surface_point.h"
 
 namespace morphbake {
 namespace {
@@ -60,13 +61,6 @@ Eigen::RowVector3d outermost(const Mesh& surface, const OneRings& rings, const N
     }
   }
   return best;
-}
-
-/// The corner of the point's triangle that has most of it.
-int nearest_corner(const Mesh& surface, const SurfacePoint& point) {
-  Eigen::Index largest = 0;
-  point.barycentric.maxCoeff(&largest);
-  return surface.triangles(point.triangle, largest);
 }
 
 Eigen::RowVector3d closest_on_rim(const Mesh& surface, const std::vector<int>& rim,

@@ -124,6 +124,9 @@ struct Place {
   Eigen::Index column = 0;
 };
 
+/// Whether `value` is the eigenvalue `other`, but for rounding.
+bool is_same(double value, double other) { return value - other <= kSame * other; }
+
 /// The smallest pairs of all components; equal ones in the order of the components.
 std::vector<Place> smallest_places(const std::vector<Eigenpairs>& pairs, int count) {
   std::vector<Place> places;
@@ -134,7 +137,9 @@ std::vector<Place> smallest_places(const std::vector<Eigenpairs>& pairs, int cou
   }
   std::stable_sort(places.begin(), places.end(),
                    [](const Place& a, const Place& b) { return a.value < b.value; });
-  places.resize(std::min(places.size(), static_cast<std::size_t>(count)));
+  auto end = static_cast<std::size_t>(count);
+  while (end < places.size() && is_same(places[end].value, places[end - 1].value)) ++end;
+  places.resize(end);
   return places;
 }
 
@@ -179,6 +184,15 @@ SpectralBasis smallest_eigenvectors(const OneRings& rings, int count,
     fail(fmt::format("an eigenvector has a residual of {:.1e}", residual), "ask for fewer");
   }
   return basis;
+}
+
+int whole_count(const SpectralBasis& basis, int count) {
+  if (count == 0) return 0;
+  while (count < basis.eigenvalues.size() &&
+         is_same(basis.eigenvalues(count), basis.eigenvalues(count - 1))) {
+    ++count;
+  }
+  return count;
 }
 
 }  // namespace morphbake

@@ -22,7 +22,8 @@ struct EigenvectorOptions {
 };
 
 /// The `count` smallest eigenpairs of the symmetric normalised Laplacian S = Deg^-1/2 K_L Deg^-1/2
-/// of the one-rings; U = Deg^-1/2 times its eigenvectors.
+/// of the one-rings, and all whose eigenvalue equals the last one's (to 1e-9, relative): a part of
+/// its space would be any part. U = Deg^-1/2 times its eigenvectors.
 ///
 /// The constants of each component come first. The remark of the paper that the Laplacian is normal
 /// holds for regular meshes only, hence S. None is missed: the inertia of K_L - mu Deg says how
@@ -37,5 +38,8 @@ struct EigenvectorOptions {
 SpectralBasis smallest_eigenvectors(const OneRings& rings, int count,
                                     const EigenvectorOptions& options = {},
                                     const Observer& observer = {});
+
+/// `count`, or as many more as have the same eigenvalue.
+int whole_count(const SpectralBasis& basis, int count);
 
 }  // namespace morphbake

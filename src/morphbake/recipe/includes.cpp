@@ -15,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kMostFiles = 100;  // read in all: each may be included by many
+constexpr int kMostFiles = 100;
 constexpr std::array kByName = {"sources", "regions", "states"};
 constexpr std::array kOwn = {"$schema", "version", "name", "include"};
 
@@ -38,23 +38,28 @@ class Reader {
       for (std::size_t i = 0; i < includes->size(); ++i) {
         if (!(*includes)[i].is_string()) continue;  // the schema tells
         const fs::path name = (*includes)[i].get<std::string>();
+        const fs::path named = (file.parent_path() / name).lexically_normal();
         const Location here{file.string(), child_pointer("/include", i), 0, 0};
-        join(whole, read((file.parent_path() / name).lexically_normal(), here), here);
+        if (!is_in(closed_, named)) join(whole, read(named, here), here);
       }
     }
     open_.pop_back();
+    closed_.push_back(file);
     if (!own.is_object()) return {own, {{"", file}}};
     put_own(whole, own, file);
     return whole;
   }
 
  private:
-  void check_file(const fs::path& file, const Location& at) {
-    const auto same = [&file](const fs::path& other) {
+  static bool is_in(const std::vector<fs::path>& files, const fs::path& file) {
+    return std::ranges::any_of(files, [&file](const fs::path& other) {
       std::error_code error;
       return file == other || (fs::equivalent(file, other, error) && !error);
-    };
-    if (std::ranges::any_of(open_, same)) {
+    });
+  }
+
+  void check_file(const fs::path& file, const Location& at) {
+    if (is_in(open_, file)) {
       throw BakeError(Problem{Severity::Error, "recipe.cycle", at,
                               fmt::format("{} includes itself", shown(Json(file.string()))),
                               "take out one of the includes"});
@@ -63,6 +68,12 @@ class Reader {
       throw BakeError(Problem{Severity::Error, "recipe.too-many-includes", at,
                               fmt::format("more than {} files are included", kMostFiles),
                               "put them together"});
+    }
+    const fs::path extension = file.extension();
+    if (!open_.empty() && (extension == ".glb" || extension == ".gltf")) {
+      throw BakeError(Problem{Severity::Error, "recipe.wrong-type", at,
+                              fmt::format("{} is a mesh, no recipe", shown(Json(file.string()))),
+                              "meshes stand in \"sources\""});
     }
     std::error_code error;
     if (open_.empty() || fs::is_regular_file(file, error)) return;  // of the first one others tell
@@ -133,7 +144,8 @@ class Reader {
     }
   }
 
-  std::vector<fs::path> open_;  ///< from the first file on
+  std::vector<fs::path> open_;    ///< from the first file on
+  std::vector<fs::path> closed_;  ///< read: what several files include counts once
   int files_ = 0;
 };
 

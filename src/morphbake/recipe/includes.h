@@ -19,7 +19,8 @@ struct WholeRecipe {
 /// Reads a recipe and all that it includes, and what that includes.
 ///
 /// What a file says itself stands in place of what it includes: in "sources", "regions" and
-/// "states" name by name, all other fields whole. "name" and "version" are each file's own.
+/// "states" name by name, all other fields whole. "name" and "version" are each file's own. A file
+/// that several files include counts once, where it is named first.
 /// @throws BakeError as read_json; "recipe.missing-file", "recipe.cycle", "recipe.duplicate-name"
 ///         for what two included files say, "recipe.too-many-includes"
 WholeRecipe read_with_includes(const std::filesystem::path& file);

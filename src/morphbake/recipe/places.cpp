@@ -20,8 +20,9 @@ void visit_region(RegionOfInterest& region, const PlaceVisitor& visit) {
     visit_list(rings->inner, rings->source, pointer + "/rings/inner", visit);
     visit_list(rings->outer, rings->source, pointer + "/rings/outer", visit);
   } else if (auto* scattered = std::get_if<ScatteredRegion>(&region.shape)) {
-    for (auto& [place, value] : scattered->values) {
-      visit(place, scattered->source, pointer + "/scattered/values", Whereabouts::OnSurface);
+    for (ScatteredValue& each : scattered->values) {
+      visit(each.at, scattered->source, child_pointer(pointer + "/scattered/values", each.name),
+            Whereabouts::OnSurface);
     }
   } else if (auto* flood = std::get_if<FloodRegion>(&region.shape)) {
     visit_list(flood->seeds, flood->source, pointer + "/flood/from", visit);

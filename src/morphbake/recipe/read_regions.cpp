@@ -90,8 +90,8 @@ ScatteredRegion read_scattered(Reading& reading, const Json& json, const std::st
   scattered.source = read_on(reading, json, pointer);
   for (const auto& [name, value] : json["values"].items()) {
     const std::string at = child_pointer(pointer + "/values", name);
-    scattered.values.emplace_back(read_place(reading, Json(name), scattered.source, at),
-                                  value.get<double>());
+    scattered.values.push_back(
+        {name, read_place(reading, Json(name), scattered.source, at), value.get<double>()});
   }
   return scattered;
 }

@@ -55,6 +55,19 @@ struct ShapeFields {
     return read_animated<Eigen::Vector3d>(reading, json, pointer, field, {0, 0, 0});
   }
 
+  /// A length an axis.
+  Animated<Eigen::Vector3d> size(const char* field) const {
+    Animated<Eigen::Vector3d> size = vector(field);
+    for (const Eigen::Vector3d& each : size.values) {
+      if (each.minCoeff() >= 0) continue;
+      complain(reading, "recipe.out-of-range", child_pointer(pointer, field),
+               fmt::format("({:.4g}, {:.4g}, {:.4g}) is no size", each.x(), each.y(), each.z()),
+               "give three lengths of 0 or more");
+      break;
+    }
+    return size;
+  }
+
   /// A direction; the zero vector is none.
   Animated<Eigen::Vector3d> direction(const char* field) const {
     Animated<Eigen::Vector3d> direction = vector(field);
@@ -81,7 +94,7 @@ void read_spatial_shape(Reading& reading, const Json& json, const std::string& p
     region.shape = Slab{slab.direction("normal"), slab.number("offset"), slab.number("thickness")};
   } else if (json.contains("box")) {
     const ShapeFields box = of("box");
-    region.shape = Box{box.vector("centre"), box.vector("size")};
+    region.shape = Box{box.vector("centre"), box.size("size")};
   } else if (json.contains("sphere")) {
     const ShapeFields sphere = of("sphere");
     region.shape = SphereShape{sphere.vector("centre"), sphere.number("radius")};
@@ -107,6 +120,10 @@ SpatialRegion read_spatial(Reading& reading, const Json& json, const std::string
                pointer);
   SpatialRegion region;
   region.width = read_animated<double>(reading, json, pointer, "width", 0);
+  if (json.contains("ramp") && json.contains("width")) {
+    complain(reading, "recipe.out-of-range", pointer + "/width", "a ramp has no width",
+             "it is as soft as it is long: move its ends");
+  }
   const Json on = json.value("on", Json::array());
   for (std::size_t i = 0; i < on.size(); ++i) {
     const int source = look_up(reading, reading.recipe.sources, "source", on[i],

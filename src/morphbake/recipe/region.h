@@ -64,9 +64,15 @@ struct MaskRegion {
 };
 
 /// d = 1 - value, spread harmonically from a few points (Alexa 2003, section 2.4).
+struct ScatteredValue {
+  std::string name;  ///< of the landmark, in the recipe
+  Place at;
+  double value = 0;  ///< 0 to 1
+};
+
 struct ScatteredRegion {
   int source = 0;
-  std::vector<std::pair<Place, double>> values;  ///< each in [0, 1]
+  std::vector<ScatteredValue> values;
 };
 
 /// A parameter that may change with time: one value, or one a key with straight lines between.

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "morphbake/json/json.h"
+#include "morphbake/mesh/centre_of_mass.h"
 #include "morphbake/mesh/measures.h"
 #include "morphbake/recipe/places.h"
 #include "morphbake/sources/common_landmarks.h"
@@ -64,7 +65,7 @@ Extent extent_of(const SourceMesh& source) {
   const Eigen::VectorXd areas = vertex_areas(source.positions, source.triangles);
   const double whole = areas.sum();
   Extent extent;
-  extent.centre = (source.positions.transpose() * areas) / whole;
+  extent.centre = centre_of_mass(source.positions, source.triangles);
   const Eigen::VectorXd squares =
       (source.positions.rowwise() - extent.centre.transpose()).rowwise().squaredNorm();
   extent.radius = std::sqrt(squares.dot(areas) / whole);

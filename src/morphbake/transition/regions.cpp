@@ -13,9 +13,10 @@
 #include "morphbake/mesh/adjacency.h"
 #include "morphbake/mesh/closest_point.h"
 #include "morphbake/mesh/measures.h"
-#include "morphbake/transition/harmonic.h"
+#include "morphbake/mesh/surface_point.h"
 #include "morphbake/transition/rings.h"
 #include "morphbake/transition/spatial.h"
+#include "morphbake/transition/spread.h"
 #include "morphbake/transition/surface_distance.h"
 #include "morphbake/transition/timeline.h"
 
@@ -36,6 +37,7 @@ Location location_of(const Recipe& recipe, std::size_t region, const std::string
 
 /// Distances from sets of points of one source that several regions ask for.
 struct DistanceQuery {
+  Location first_asked_at;
   std::vector<PointSet> sets;
   std::vector<Eigen::VectorXd> answers;
 };
@@ -57,7 +59,8 @@ class RegionBuilder {
     for (std::size_t r = 0; r < plans_.size(); ++r) ask(r);
     for (auto& [source, surveyed] : surveyed_) {
       DistanceQuery& query = surveyed.geodesics;
-      if (!query.sets.empty()) query.answers = geodesic_distances(surveyed.mesh, query.sets);
+      if (query.sets.empty()) continue;
+      query.answers = geodesic_distances(surveyed.mesh, query.sets, query.first_asked_at);
     }
     RegionFields fields(plans_.size());
     for (std::size_t r = 0; r < plans_.size(); ++r) fields[r] = field_of(r);
@@ -96,6 +99,10 @@ class RegionBuilder {
   void ask_distance(std::size_t region, int source, const PointSet& set, DistanceMeasure measure) {
     Surveyed& surveyed = survey(source);
     if (measure == DistanceMeasure::Geodesic) {
+      if (surveyed.geodesics.sets.empty()) {
+        surveyed.geodesics.first_asked_at =
+            location_in(recipe_, child_pointer("/regions", recipe_.regions[region].name));
+      }
       plans_[region].queries.push_back(surveyed.geodesics.sets.size());
       surveyed.geodesics.sets.push_back(set);
     } else if (measure == DistanceMeasure::Edges) {
@@ -161,15 +168,15 @@ class RegionBuilder {
 
   Eigen::VectorXd scattered_distance(std::size_t region, const ScatteredRegion& scattered) {
     std::vector<Place> places;
-    for (const auto& [place, value] : scattered.values) places.push_back(place);
+    for (const ScatteredValue& each : scattered.values) places.push_back(each.at);
     const PointSet at = points(scattered.source, places);
     std::vector<FixedValue> fixed;
     for (std::size_t i = 0; i < at.size(); ++i) {
       fixed.push_back(
-          {nearest_corner(survey(scattered.source).mesh, at[i]), scattered.values[i].second});
+          {nearest_corner(survey(scattered.source).mesh, at[i]), scattered.values[i].value});
     }
     check_reached(region, scattered.source, fixed);
-    return 1 - harmonic_values(mesh_.connectivity, fixed).array().max(0).min(1);
+    return 1 - spread_values(mesh_.connectivity, fixed).array().max(0).min(1);
   }
 
   /// Each piece of the surface needs a value of its own.

@@ -10,6 +10,8 @@
 #include <utility>
 
 #include "morphbake/mesh/adjacency.h"
+#include "morphbake/mesh/sides.h"
+#include "morphbake/mesh/surface_point.h"
 
 namespace morphbake {
 namespace {
@@ -187,20 +189,15 @@ class RingFinder {
 
   /// The triangle across each edge, -1 at borders.
   void join_triangles() {
-    std::vector<std::pair<Edge, int>> sides;
-    for (int f = 0; f < mesh_.triangles.rows(); ++f) {
-      for (int k = 0; k < 3; ++k) {
-        sides.push_back(
-            {edge_of(mesh_.triangles(f, k), mesh_.triangles(f, (k + 1) % 3)), 3 * f + k});
-      }
-    }
-    std::sort(sides.begin(), sides.end());
-    across_.assign(sides.size(), -1);
-    for (std::size_t i = 1; i < sides.size(); ++i) {
-      if (sides[i].first != sides[i - 1].first) continue;
-      across_[static_cast<std::size_t>(sides[i].second)] = sides[i - 1].second / 3;
-      across_[static_cast<std::size_t>(sides[i - 1].second)] = sides[i].second / 3;
-    }
+    across_.assign(static_cast<std::size_t>(mesh_.triangles.size()), -1);
+    const auto corner = [](const TriangleSide& side) {
+      return static_cast<std::size_t>(3 * side.triangle + side.corner);
+    };
+    for_each_edge(sorted_sides(mesh_.triangles), [&](auto first, auto last) {
+      if (last - first != 2) return;
+      across_[corner(first[0])] = first[1].triangle;
+      across_[corner(first[1])] = first[0].triangle;
+    });
   }
 
   const Mesh& mesh_;
@@ -258,27 +255,6 @@ Eigen::VectorXd flood_order(const Eigen::VectorXd& distances, const Positions& p
     order(rank[i]) = static_cast<double>(i) / static_cast<double>(rank.size());
   }
   return order;
-}
-
-int nearest_corner(const Mesh& mesh, const SurfacePoint& at) {
-  Eigen::Index strongest = 0;
-  at.barycentric.maxCoeff(&strongest);
-  return mesh.triangles(at.triangle, strongest);
-}
-
-PointSet vertex_points(const Mesh& mesh, const std::vector<int>& vertices) {
-  std::vector<std::pair<int, SurfacePoint>> corners(static_cast<std::size_t>(mesh.positions.rows()),
-                                                    {-1, {}});
-  for (int f = 0; f < mesh.triangles.rows(); ++f) {
-    for (int k = 0; k < 3; ++k) {
-      auto& corner = corners[static_cast<std::size_t>(mesh.triangles(f, k))];
-      if (corner.first < 0) corner = {f, {f, Eigen::Vector3d::Unit(k)}};
-    }
-  }
-  PointSet points;
-  for (const int vertex : vertices)
-    points.push_back(corners[static_cast<std::size_t>(vertex)].second);
-  return points;
 }
 
 }  // namespace morphbake

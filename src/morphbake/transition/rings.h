@@ -40,10 +40,4 @@ Eigen::VectorXd ring_distance(const Rings& rings, const Eigen::VectorXd& from_in
 Eigen::VectorXd flood_order(const Eigen::VectorXd& distances, const Positions& positions,
                             double softness);
 
-/// The triangle's corner that is nearest to a point, by barycentric coordinates.
-int nearest_corner(const Mesh& mesh, const SurfacePoint& at);
-
-/// Vertices as points of the surface.
-PointSet vertex_points(const Mesh& mesh, const std::vector<int>& vertices);
-
 }  // namespace morphbake

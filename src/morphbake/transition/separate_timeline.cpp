@@ -12,8 +12,6 @@
 namespace morphbake {
 namespace {
 
-constexpr std::size_t kFieldLimit = 256;
-
 using Factors = std::vector<int>;  // rising track indices; empty is the start
 
 /// Whether track `a` has come to its end before track `b` begins to move.
@@ -62,16 +60,6 @@ void add_term(Terms& terms, const Factors& factors, const Eigen::MatrixXd& field
   if (!is_new) entry->second += field;
 }
 
-void check_term_count(const Recipe& recipe, std::size_t count) {
-  if (count <= kFieldLimit) return;
-  throw BakeError(Problem{
-      Severity::Error, "transition.too-many-overlaps", location_in(recipe, "/timeline/tracks"),
-      fmt::format("the tracks need more than {} shapes: one each, and one for each "
-                  "combination that overlaps in space and time",
-                  kFieldLimit - 1),
-      "use fewer tracks, and let those that share a region follow one another"});
-}
-
 /// m S of an edit, at every vertex and axis: #sources by #V, or 3 #V.
 Eigen::MatrixXd edited_part(const Shares& to, const Eigen::RowVectorXd& m) {
   Eigen::MatrixXd part(to.rows(), to.cols() * m.size());
@@ -81,8 +69,10 @@ Eigen::MatrixXd edited_part(const Shares& to, const Eigen::RowVectorXd& m) {
   return part;
 }
 
-/// Expands T <- (1 - a m) T + a m S track by track, with a(t) kept symbolic and m = 1 - d.
-Terms expand_tracks(const Recipe& recipe, const RegionFields& regions, Eigen::Index vertex_count) {
+/// Expands T <- (1 - a m) T + a m S track by track, with a(t) kept symbolic and m = 1 - d; none
+/// where there are too many.
+std::optional<Terms> expand_tracks(const Recipe& recipe, const RegionFields& regions,
+                                   Eigen::Index vertex_count) {
   const std::vector<Track>& tracks = recipe.timeline.tracks;
   Terms terms;
   terms[{}] = uniform_transition(recipe.timeline.start, vertex_count);
@@ -100,15 +90,17 @@ Terms expand_tracks(const Recipe& recipe, const RegionFields& regions, Eigen::In
       add_term(terms, reduced(product, tracks),
                -(field.array().rowwise() * at_each_axis.array()).matrix());
     }
-    check_term_count(recipe, terms.size());
+    if (terms.size() > kMostFields) return std::nullopt;
   }
   return terms;
 }
 
-SeparableTimeline separate_tracks(const Recipe& recipe, const RegionFields& regions,
-                                  Eigen::Index vertex_count) {
+std::optional<SeparableTimeline> separate_tracks(const Recipe& recipe, const RegionFields& regions,
+                                                 Eigen::Index vertex_count) {
+  std::optional<Terms> terms = expand_tracks(recipe, regions, vertex_count);
+  if (!terms) return std::nullopt;
   SeparableTimeline separable{recipe.timeline.start, {}};
-  for (auto& [factors, field] : expand_tracks(recipe, regions, vertex_count)) {
+  for (auto& [factors, field] : *terms) {
     if (factors.empty()) field -= uniform_transition(recipe.timeline.start, vertex_count);
     // Terms that cancelled, as where a track leads to what is there already, move nothing. Rounding
     // of a sum of shares is at most a few epsilon.
@@ -210,10 +202,11 @@ bool is_separable(const Recipe& recipe, const RegionFields& regions) {
          std::none_of(timeline.keys.begin(), timeline.keys.end(), key_moves);
 }
 
-SeparableTimeline separate_timeline(const Recipe& recipe, const RegionFields& regions,
-                                    Eigen::Index vertex_count) {
-  return recipe.timeline.keys.empty() ? separate_tracks(recipe, regions, vertex_count)
-                                      : separate_keys(recipe, regions, vertex_count);
+std::optional<SeparableTimeline> separate_timeline(const Recipe& recipe,
+                                                   const RegionFields& regions,
+                                                   Eigen::Index vertex_count) {
+  if (recipe.timeline.keys.empty()) return separate_tracks(recipe, regions, vertex_count);
+  return separate_keys(recipe, regions, vertex_count);
 }
 
 SeparableTimeline separate_state(const State& state, const RegionFields& regions,

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -28,10 +29,14 @@ struct SeparableTimeline {
 /// Whether the timeline is separable: no track floods, and no track or key has a region that moves.
 bool is_separable(const Recipe& recipe, const RegionFields& regions);
 
+/// A timeline of more fields is solved frame by frame.
+constexpr std::size_t kMostFields = 256;
+
 /// @param recipe  whose timeline is separable
-/// @throws BakeError "transition.too-many-overlaps" beyond 255 fields
-SeparableTimeline separate_timeline(const Recipe& recipe, const RegionFields& regions,
-                                    Eigen::Index vertex_count);
+/// @return        none where it has more than kMostFields
+std::optional<SeparableTimeline> separate_timeline(const Recipe& recipe,
+                                                   const RegionFields& regions,
+                                                   Eigen::Index vertex_count);
 
 /// The timeline that is one state for ever.
 SeparableTimeline separate_state(const State& state, const RegionFields& regions,

@@ -9,7 +9,7 @@
 #include <string_view>
 
 #include "morphbake/diagnostics/problem.h"
-#include "morphbake/mesh/measures.h"
+#include "morphbake/mesh/centre_of_mass.h"
 
 namespace morphbake {
 namespace {
@@ -145,13 +145,20 @@ struct SignedDistance {
   }
 };
 
+}  // namespace
+
+Eigen::VectorXd signed_distance(const SpatialRegion& region, const Positions& points, double time) {
+  return std::visit(SignedDistance{points, time}, region.shape);
+}
+
+namespace {
+
 Eigen::VectorXd mean_distance(const SpatialField& field, double time) {
   const bool is_ramp = std::holds_alternative<Ramp>(field.region.shape);
   const double width = is_ramp ? 0 : field.region.width.at(time);
   Eigen::VectorXd sum = Eigen::VectorXd::Zero(field.coordinates.front()->rows());
   for (const auto& coordinates : field.coordinates) {
-    const Eigen::ArrayXd distance =
-        std::visit(SignedDistance{*coordinates, time}, field.region.shape);
+    const Eigen::ArrayXd distance = signed_distance(field.region, *coordinates, time);
     if (is_ramp) {
       sum.array() += distance.max(0).min(1);
     } else if (width > 0) {
@@ -164,10 +171,6 @@ Eigen::VectorXd mean_distance(const SpatialField& field, double time) {
 }
 
 }  // namespace
-
-Eigen::VectorXd signed_distance(const SpatialRegion& region, const Positions& points, double time) {
-  return std::visit(SignedDistance{points, time}, region.shape);
-}
 
 Eigen::VectorXd spatial_distance(const SpatialField& field, double time) {
   try {
@@ -216,12 +219,8 @@ bool moves_with_time(const SpatialRegion& region) {
 }
 
 Positions centred_coordinates(const Mesh& mesh, double unit) {
-  const Eigen::VectorXd areas = vertex_areas(mesh.positions, mesh.triangles);
-  const double whole = areas.sum();
-  // The middle of a triangle counts its area; vertices with a third each of it do the same.
-  const Eigen::RowVector3d centre = whole > 0 ? (areas.transpose() * mesh.positions / whole).eval()
-                                              : mesh.positions.colwise().mean().eval();
-  return (mesh.positions.rowwise() - centre) / unit;
+  const Eigen::Vector3d centre = centre_of_mass(mesh.positions, mesh.triangles);
+  return (mesh.positions.rowwise() - centre.transpose()) / unit;
 }
 
 }  // namespace morphbake

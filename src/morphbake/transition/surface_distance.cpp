@@ -8,6 +8,7 @@
 #include <CGAL/boost/graph/Euler_operations.h>
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <array>
 #include <cassert>
 #include <limits>
@@ -17,6 +18,8 @@
 #include "morphbake/diagnostics/problem.h"
 #include "morphbake/linear/cholesky_factor.h"
 #include "morphbake/mesh/adjacency.h"
+#include "morphbake/mesh/closest_point.h"
+#include "morphbake/mesh/surface_point.h"
 
 namespace morphbake {
 namespace {
@@ -50,59 +53,98 @@ Surface to_cgal(const Mesh& mesh) {
   return surface;
 }
 
-Point weighted(const Surface& surface, const std::array<VertexIndex, 3>& corners,
-               const Eigen::Vector3d& weights) {
-  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-  for (int k = 0; k < 3; ++k) {
-    const Point& p = surface.point(corners[static_cast<std::size_t>(k)]);
-    sum += weights(k) * Eigen::Vector3d(p.x(), p.y(), p.z());
-  }
-  return {sum.x(), sum.y(), sum.z()};
-}
+/// A mesh of which points become vertices: the triangle or edge that each lies on is split.
+class SplitSurface {
+ public:
+  explicit SplitSurface(const Mesh& mesh) : mesh_(mesh), surface_(to_cgal(mesh)) {}
 
-VertexIndex split_edge(Surface& surface, Surface::Halfedge_index edge, const Point& point) {
-  const auto first = CGAL::Euler::split_edge(edge, surface);  // points at the new vertex
-  const VertexIndex vertex = surface.target(first);
-  surface.point(vertex) = point;
-  for (const auto side : {first, surface.opposite(surface.next(first))}) {
-    if (!surface.is_border(side)) {
-      CGAL::Euler::split_face(side, surface.next(surface.next(side)), surface);
+  Surface& surface() { return surface_; }
+
+  /// The vertex at a point of the original mesh.
+  VertexIndex insert(const SurfacePoint& at) {
+    const Eigen::Vector3d position = position_of(mesh_, at);
+    const Corners corners = corners_of(face_at(at.triangle, position));
+    const Eigen::Vector3d shares = plane_coordinates(positions_of(corners), position);
+    std::vector<std::size_t> near, far;
+    for (std::size_t k = 0; k < 3; ++k) {
+      (shares(static_cast<Eigen::Index>(k)) < kOnEdge ? near : far).push_back(k);
     }
+    if (far.size() == 1) return surface_.target(corners[far[0]]);
+    const Point point(position.x(), position.y(), position.z());
+    return near.empty() ? split_face(corners[0], point)
+                        : split_edge(corners[(near[0] + 2) % 3], point);
   }
-  return vertex;
-}
 
-/// Makes a point of the original mesh a vertex of `surface`; none where an earlier point has split
-/// its triangle.
-std::optional<VertexIndex> insert_point(Surface& surface, const Mesh& mesh,
-                                        const SurfacePoint& at) {
-  std::array<VertexIndex, 3> corners;
-  for (int k = 0; k < 3; ++k) {
-    corners[static_cast<std::size_t>(k)] =
-        VertexIndex(static_cast<unsigned>(mesh.triangles(at.triangle, k)));
+ private:
+  using Face = Surface::Face_index;
+  using Halfedge = Surface::Halfedge_index;
+  using Corners = std::array<Halfedge, 3>;  ///< each points at its corner
+
+  Corners corners_of(Face face) const {
+    const Halfedge first = surface_.halfedge(face);
+    return {first, surface_.next(first), surface_.next(surface_.next(first))};
   }
-  int near = 0;  // how many corners have no share to speak of
-  int last_near = 0, last_far = 0;
-  for (int k = 0; k < 3; ++k) {
-    const bool is_near = at.barycentric(k) < kOnEdge;
-    near += is_near;
-    (is_near ? last_near : last_far) = k;
+
+  Eigen::Matrix3d positions_of(const Corners& corners) const {
+    Eigen::Matrix3d positions;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Point& p = surface_.point(surface_.target(corners[k]));
+      positions.row(static_cast<Eigen::Index>(k)) << p.x(), p.y(), p.z();
+    }
+    return positions;
   }
-  if (near == 2) return corners[static_cast<std::size_t>(last_far)];
-  const Point point = weighted(surface, corners, at.barycentric);
-  if (near == 1) {
-    const VertexIndex a = corners[static_cast<std::size_t>((last_near + 1) % 3)];
-    const VertexIndex b = corners[static_cast<std::size_t>((last_near + 2) % 3)];
-    const auto edge = surface.halfedge(a, b);
-    if (!edge.is_valid()) return std::nullopt;
-    return split_edge(surface, edge, point);
+
+  /// The part of a triangle in which a point lies.
+  Face face_at(int triangle, const Eigen::Vector3d& position) const {
+    Face best(static_cast<unsigned>(triangle));
+    double most = -std::numeric_limits<double>::infinity();
+    const auto consider = [&](Face face) {
+      const double least = plane_coordinates(positions_of(corners_of(face)), position).minCoeff();
+      if (least > most) best = face;
+      most = std::max(most, least);
+    };
+    consider(best);
+    for (std::size_t i = 0; i < triangle_of_part_.size(); ++i) {
+      if (triangle_of_part_[i] == triangle) consider(part(i));
+    }
+    return best;
   }
-  const auto inside = surface.halfedge(corners[0], corners[1]);
-  if (!inside.is_valid() || surface.target(surface.next(inside)) != corners[2]) return std::nullopt;
-  const auto spoke = CGAL::Euler::add_center_vertex(inside, surface);
-  surface.point(surface.target(spoke)) = point;
-  return surface.target(spoke);
-}
+
+  Face part(std::size_t i) const {
+    return Face(static_cast<unsigned>(static_cast<std::size_t>(mesh_.triangles.rows()) + i));
+  }
+
+  /// The triangle of the mesh that a face is a part of.
+  int triangle_of(Face face) const {
+    const auto original = static_cast<std::size_t>(mesh_.triangles.rows());
+    return face.idx() < original ? static_cast<int>(face.idx())
+                                 : triangle_of_part_[face.idx() - original];
+  }
+
+  VertexIndex split_face(Halfedge side, const Point& point) {
+    const int triangle = triangle_of(surface_.face(side));
+    const VertexIndex vertex = surface_.target(CGAL::Euler::add_center_vertex(side, surface_));
+    surface_.point(vertex) = point;
+    triangle_of_part_.insert(triangle_of_part_.end(), 2, triangle);
+    return vertex;
+  }
+
+  VertexIndex split_edge(Halfedge edge, const Point& point) {
+    const Halfedge first = CGAL::Euler::split_edge(edge, surface_);  // points at the new vertex
+    const VertexIndex vertex = surface_.target(first);
+    surface_.point(vertex) = point;
+    for (const Halfedge side : {first, surface_.opposite(surface_.next(first))}) {
+      if (surface_.is_border(side)) continue;
+      triangle_of_part_.push_back(triangle_of(surface_.face(side)));
+      CGAL::Euler::split_face(side, surface_.next(surface_.next(side)), surface_);
+    }
+    return vertex;
+  }
+
+  const Mesh& mesh_;
+  Surface surface_;                    ///< the mesh's faces come first, each a part of itself
+  std::vector<int> triangle_of_part_;  ///< of the other faces
+};
 
 /// The part of a mesh that is connected with one triangle: the heat method divides by zero
 /// elsewhere.
@@ -176,10 +218,14 @@ class HeatSolver {
   /// Of the heat method's two matrices the Laplacian alone has rows that sum to 0, but for
   /// rounding; in the other one the vertices' areas are left.
   static bool sums_to_zero(const Eigen::SparseMatrix<double>& matrix) {
-    constexpr double kRounding = 1e-13;
+    constexpr double kRounding = 8 * std::numeric_limits<double>::epsilon();  // of one entry
     const Eigen::VectorXd ones = Eigen::VectorXd::Ones(matrix.cols());
     const Eigen::VectorXd sums = (matrix * ones).cwiseAbs(), sizes = matrix.cwiseAbs() * ones;
-    return (sums.array() <= kRounding * sizes.array()).all();
+    for (Eigen::Index row = 0; row < matrix.outerSize(); ++row) {
+      const double entries = matrix.outerIndexPtr()[row + 1] - matrix.outerIndexPtr()[row];
+      if (sums(row) > kRounding * entries * sizes(row)) return false;
+    }
+    return true;
   }
 
   std::optional<CholeskyFactor> factor_;
@@ -201,36 +247,22 @@ Eigen::VectorXd distances_of(HeatMethod& heat, Surface& surface,
   return (result.array() - zero / static_cast<double>(sources.size())).max(0);
 }
 
-/// Distances on a connected mesh from those sets whose points can all be inserted into one surface;
-/// the others' stay without rows.
-///
-/// @param open  indices of the sets to do; those done are taken out
-void heat_distances(const Mesh& mesh, const std::vector<PointSet>& sets,
-                    std::vector<std::size_t>& open, std::vector<Eigen::VectorXd>& distances) {
-  Surface surface = to_cgal(mesh);
-  std::vector<std::pair<std::size_t, std::vector<VertexIndex>>> inserted;
-  std::vector<std::size_t> left;
-  for (const std::size_t set : open) {
-    std::vector<VertexIndex> vertices;
-    for (const SurfacePoint& at : sets[set]) {
-      if (const auto vertex = insert_point(surface, mesh, at)) vertices.push_back(*vertex);
-    }
-    // Of a set alone in its surface, points in one triangle that cannot all be inserted are so
-    // close to one another that those which could be stand for them.
-    const bool is_whole = vertices.size() == sets[set].size() || set == open.front();
-    if (is_whole) {
-      inserted.emplace_back(set, std::move(vertices));
-    } else {
-      left.push_back(set);
-    }
+/// Distances on a connected mesh from each set that is not empty; of the others without rows.
+std::vector<Eigen::VectorXd> heat_distances(const Mesh& mesh, const std::vector<PointSet>& sets) {
+  SplitSurface split(mesh);
+  std::vector<std::vector<VertexIndex>> sources(sets.size());
+  for (std::size_t i = 0; i < sets.size(); ++i) {
+    for (const SurfacePoint& at : sets[i]) sources[i].push_back(split.insert(at));
   }
-  HeatMethod heat(surface);
-  for (const auto& [set, vertices] : inserted) {
+  HeatMethod heat(split.surface());
+  std::vector<Eigen::VectorXd> distances(sets.size());
+  for (std::size_t i = 0; i < sets.size(); ++i) {
+    if (sets[i].empty()) continue;
     heat.clear_sources();
-    for (const VertexIndex vertex : vertices) heat.add_source(vertex);
-    distances[set] = distances_of(heat, surface, vertices, mesh.positions.rows());
+    for (const VertexIndex vertex : sources[i]) heat.add_source(vertex);
+    distances[i] = distances_of(heat, split.surface(), sources[i], mesh.positions.rows());
   }
-  open = std::move(left);
+  return distances;
 }
 
 /// The sets' points on one component, as points of its part.
@@ -253,19 +285,17 @@ std::vector<PointSet> on_component(const Mesh& mesh, const Components& component
   return there;
 }
 
-[[noreturn]] void fail_without_area() {
+[[noreturn]] void fail_without_area(const Location& where) {
   throw BakeError(
-      Problem{Severity::Error,
-              "transition.distance-failed",
-              {},
+      Problem{Severity::Error, "transition.distance-failed", where,
               "the geodesic distance is not finite: the surface has triangles without area",
               "set \"distance\": \"edges\" for the region"});
 }
 
 }  // namespace
 
-std::vector<Eigen::VectorXd> geodesic_distances(const Mesh& mesh,
-                                                const std::vector<PointSet>& sets) {
+std::vector<Eigen::VectorXd> geodesic_distances(const Mesh& mesh, const std::vector<PointSet>& sets,
+                                                const Location& where) {
   const Components components =
       connected_components(one_rings({static_cast<int>(mesh.positions.rows()), mesh.triangles}));
   std::vector<Eigen::VectorXd> distances(
@@ -273,18 +303,14 @@ std::vector<Eigen::VectorXd> geodesic_distances(const Mesh& mesh,
       Eigen::VectorXd::Constant(mesh.positions.rows(), std::numeric_limits<double>::infinity()));
   for (int label = 0; label < components.count; ++label) {
     const std::vector<PointSet> there = on_component(mesh, components, label, sets);
-    std::vector<std::size_t> open;
-    for (std::size_t i = 0; i < there.size(); ++i) {
-      if (!there[i].empty()) open.push_back(i);
-    }
-    if (open.empty()) continue;
-    const std::vector<std::size_t> asked = open;
+    const auto is_empty = [](const PointSet& set) { return set.empty(); };
+    if (std::all_of(there.begin(), there.end(), is_empty)) continue;
     const Part part = part_of_component(mesh, components, label);
-    if (has_needles(part.mesh)) fail_without_area();
-    std::vector<Eigen::VectorXd> inside(sets.size());
-    while (!open.empty()) heat_distances(part.mesh, there, open, inside);
-    for (const std::size_t i : asked) {
-      if (!inside[i].allFinite()) fail_without_area();
+    if (has_needles(part.mesh)) fail_without_area(where);
+    const std::vector<Eigen::VectorXd> inside = heat_distances(part.mesh, there);
+    for (std::size_t i = 0; i < there.size(); ++i) {
+      if (there[i].empty()) continue;
+      if (!inside[i].allFinite()) fail_without_area(where);
       distances[i](part.vertex_of_part) = inside[i];
     }
   }

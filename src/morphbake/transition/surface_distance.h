@@ -3,6 +3,7 @@
 #include <memory>
 #include <vector>
 
+#include "morphbake/diagnostics/problem.h"
 #include "morphbake/mesh/mesh.h"
 
 namespace morphbake {
@@ -27,13 +28,14 @@ Eigen::VectorXd hop_distances(const Mesh& mesh, const std::vector<int>& from);
 ///
 /// A point becomes a vertex of its own (its triangle or edge is split), never the nearest vertex.
 /// Error 1-4 % of the distance; it grows where triangles are large against it.
-/// @param sets  none is empty
+/// @param sets   none is empty
+/// @param where  the place that a failure is told at
 /// @return  one a set: #V, scene units, 0 or more; infinity on components without a point of it
-/// @cost    one factorisation a component, and one more for points that share a triangle
+/// @cost    one factorisation a component
 /// @see     Crane, Weischedel and Wardetzky 2013; CGAL Heat_method_3
 /// @throws  BakeError "transition.distance-failed"
-std::vector<Eigen::VectorXd> geodesic_distances(const Mesh& mesh,
-                                                const std::vector<PointSet>& sets);
+std::vector<Eigen::VectorXd> geodesic_distances(const Mesh& mesh, const std::vector<PointSet>& sets,
+                                                const Location& where = {});
 
 /// Distances from many vertices of one connected mesh, which is factorised once.
 ///

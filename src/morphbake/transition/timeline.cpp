@@ -126,12 +126,22 @@ TransitionState transition_at(const Recipe& recipe, const RegionFields& regions,
   return T;
 }
 
+namespace {
+
+/// The source with a file from which a shape comes.
+std::size_t file_of(const Recipe& recipe, std::size_t shape) {
+  const std::size_t files = recipe.sources.size();
+  return shape < files ? shape : static_cast<std::size_t>(recipe.derived[shape - files].root);
+}
+
+}  // namespace
+
 std::vector<int> sources_with_a_share(const Recipe& recipe) {
   std::vector<bool> has_share(recipe.sources.size(), false);
   const auto add = [&](const Shares& shares) {
-    for (std::size_t s = 0; s < has_share.size(); ++s) {
-      const auto row = static_cast<Eigen::Index>(s);
-      if (row < shares.rows() && !shares.row(row).isZero(0)) has_share[s] = true;
+    for (Eigen::Index row = 0; row < shares.rows(); ++row) {
+      if (!shares.row(row).isZero(0))
+        has_share[file_of(recipe, static_cast<std::size_t>(row))] = true;
     }
   };
   if (recipe.timeline.keys.empty()) add(recipe.timeline.start);

@@ -46,7 +46,8 @@ TransitionState state_transition(const State& state, const RegionFields& regions
 TransitionState transition_at(const Recipe& recipe, const RegionFields& regions,
                               Eigen::Index vertex_count, double time);
 
-/// The sources with a file that have a share in any track or state, in order; the first where none.
+/// The sources with a file that have a share in any track or state, or from which a shape with a
+/// share is derived, in order; the first where none.
 std::vector<int> sources_with_a_share(const Recipe& recipe);
 
 /// Times at which the timeline may bend or jump: rising, from 0 to the duration.

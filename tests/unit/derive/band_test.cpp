@@ -92,6 +92,14 @@ TEST(Band, LowPassEqualsADenseProjection) {
   }
 }
 
+TEST(Band, CutsThroughAMultipleEigenvalueMoveBehindIt) {
+  const Mesh small = bent_torus(31, 17), large = bent_torus(37, 29);
+  for (const Mesh& mesh : {small, large}) {
+    EXPECT_LT(largest_distance(band_limited(mesh, {0, 5}), dense_low_pass(mesh, 7)), 1e-9);
+    EXPECT_LT(largest_distance(band_limited(mesh, {0, 49}), dense_low_pass(mesh, 51)), 1e-9);
+  }
+}
+
 TEST(Band, LowPassOfALargerMeshUsesTheSparseSolver) {
   const Mesh mesh = bent_torus(37, 29);
   const Positions expected = dense_low_pass(mesh, 51);

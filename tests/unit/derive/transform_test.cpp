@@ -30,20 +30,6 @@ TEST(Transform, OfNothingIsTheSource) {
   EXPECT_EQ(transformed(mesh, {}), mesh.positions);
 }
 
-TEST(Transform, CentreOfMassIsOfTheSurface) {
-  EXPECT_LT((centre_of_mass(shifted_sphere()) - Eigen::Vector3d(2, 3, 4)).norm(), 1e-12);
-  // The half of a grid that is cut finer weighs no more.
-  Mesh grid = test::grid(11, 2);
-  for (int v = 0; v < 22; ++v) {
-    double& x = grid.positions(v, 0);
-    x = x < 9.5 ? x / 9 : 2;
-  }
-  EXPECT_LT((centre_of_mass(grid) - Eigen::Vector3d(1, 0.5, 0)).norm(), 1e-12);
-  grid.positions.setConstant(3);
-  EXPECT_LT((centre_of_mass(grid) - Eigen::Vector3d(3, 3, 3)).norm(), 1e-14);
-  EXPECT_EQ(centre_of_mass({Positions(0, 3), Triangles(0, 3)}), Eigen::Vector3d::Zero());
-}
-
 TEST(Transform, TranslatesExactly) {
   const Mesh mesh = shifted_sphere();
   Transform move;

@@ -83,6 +83,18 @@ TEST(GeodesicDistances, SetsMayShareATriangle) {
   EXPECT_LT(std::abs(r[1](0) - std::hypot(10.4, 10.8)), 0.8);
 }
 
+TEST(GeodesicDistances, SeveralPointsInOneTriangleCount) {
+  const Mesh mesh = test::grid(21, 21);
+  const PointSet set = {closest_point(mesh, {10.05, 10.2, 0}), closest_point(mesh, {10.7, 10.9, 0}),
+                        closest_point(mesh, {10.1, 10.9, 0})};
+  ASSERT_EQ(set[0].triangle, set[1].triangle);
+  ASSERT_EQ(set[0].triangle, set[2].triangle);
+  const Eigen::VectorXd r = geodesic_distances(mesh, {set}).front();
+  EXPECT_NEAR(r(10 * 21 + 10), std::hypot(0.05, 0.2), 0.2);
+  EXPECT_NEAR(r(11 * 21 + 11), std::hypot(0.3, 0.1), 0.2);
+  EXPECT_NEAR(r(11 * 21 + 10), std::hypot(0.1, 0.1), 0.2);
+}
+
 TEST(HopDistances, CountEdges) {
   const Mesh mesh = test::joined(test::grid(5, 5), test::grid(2, 2));
   const Eigen::VectorXd hops = hop_distances(mesh, {0});

@@ -1,0 +1,44 @@
+#include "morphbake/transition/spread.h"
+
+#include "morphbake/differential/laplacian.h"
+#include "morphbake/linear/cholesky_factor.h"
+#include "morphbake/mesh/adjacency.h"
+
+namespace morphbake {
+
+Eigen::VectorXd spread_values(const Connectivity& connectivity,
+                              const std::vector<FixedValue>& fixed) {
+  const auto count = static_cast<std::size_t>(connectivity.vertex_count);
+  Eigen::VectorXd values = Eigen::VectorXd::Zero(connectivity.vertex_count);
+  std::vector<bool> is_fixed(count, false);
+  for (const FixedValue& each : fixed) {
+    const auto vertex = static_cast<std::size_t>(each.vertex);
+    if (!is_fixed[vertex]) values(each.vertex) = each.value;
+    is_fixed[vertex] = true;
+  }
+  std::vector<int> unknowns;
+  for (std::size_t v = 0; v < count; ++v) {
+    if (!is_fixed[v]) unknowns.push_back(static_cast<int>(v));
+  }
+  if (unknowns.empty()) return values;
+
+  // K W with W = 1 / sqrt(degree): the unknowns' columns of its transpose, P, give P^T P.
+  const OneRings rings = one_rings(connectivity);
+  const Eigen::SparseMatrix<double> K = symmetric_laplacian(rings);
+  const Eigen::VectorXd scale = K.diagonal().cwiseMax(1).cwiseSqrt().cwiseInverse();
+  const Eigen::SparseMatrix<double> rows = scale.asDiagonal() * K;
+  Eigen::SparseMatrix<double> selection(K.cols(), static_cast<Eigen::Index>(unknowns.size()));
+  selection.reserve(Eigen::VectorXi::Ones(selection.cols()));
+  for (std::size_t i = 0; i < unknowns.size(); ++i) {
+    selection.insert(unknowns[i], static_cast<Eigen::Index>(i)) = 1;
+  }
+  const Eigen::SparseMatrix<double> P = rows * selection;
+  SymmetricSystem system;
+  system.matrix = P.transpose() * P;
+  system.singular_block.assign(unknowns.size(), -1);
+  const Eigen::MatrixXd b = -(P.transpose() * (rows * values));
+  values(unknowns) = CholeskyFactor(system).solve(b).col(0);
+  return values;
+}
+
+}  // namespace morphbake
