@@ -117,8 +117,7 @@ MorphWithMotions make_animated_output(const SolvedRecipe& solved, const Output& 
   const MorphBasis basis =
       by_track ? track_basis(of.shapes, *of.separable, timeline, output.clips, options)
                : frame_basis(of.frames, output.clips);
-  made.morph =
-      make_mesh_morph(solved.first, solved.mesh, basis, solved.groups, output.clips, made.motions);
+  made.morph = make_mesh_morph(solved.first, solved.mesh, basis, solved.groups, made.motions);
   return made;
 }
 

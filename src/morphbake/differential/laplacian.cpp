@@ -40,14 +40,15 @@ Positions blend_edge_differences(const OneRings& rings, const std::vector<Positi
     const Positions& V = geometries[s];
     const Eigen::RowVectorXd T = weights.row(static_cast<Eigen::Index>(s));
     if (T.isZero(0)) continue;
+    const auto shares_at = [&](int i) {
+      return Eigen::RowVector3d(T(i), T(i + stride), T(i + 2 * stride));
+    };
     for (int i = 0; i < b.rows(); ++i) {
       const auto v = static_cast<std::size_t>(i);
       for (int n = rings.offsets[v]; n < rings.offsets[v + 1]; ++n) {
         const int j = rings.neighbours[static_cast<std::size_t>(n)];
-        for (Eigen::Index axis = 0; axis < 3; ++axis) {
-          const double T_ij = (T(i + axis * stride) + T(j + axis * stride)) / 2;
-          b(i, axis) += T_ij * (V(i, axis) - V(j, axis));
-        }
+        const Eigen::RowVector3d T_ij = (shares_at(i) + shares_at(j)) / 2;
+        b.row(i) += T_ij.cwiseProduct(V.row(i) - V.row(j));
       }
     }
   }

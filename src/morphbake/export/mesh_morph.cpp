@@ -132,6 +132,7 @@ ReferenceMotion stepped_motion(const FrameSource& frames) {
 
 ReferenceMotion motion_of(const ReferenceMotion& motion, const Clip& clip) {
   ReferenceMotion part;
+  part.name = clip.name;
   part.frame_times.push_back(0);
   for (const double time : motion.frame_times) {
     if (time > clip.begin && time < clip.end) part.frame_times.push_back(time - clip.begin);
@@ -145,7 +146,6 @@ ReferenceMotion motion_of(const ReferenceMotion& motion, const Clip& clip) {
 
 MeshMorph make_mesh_morph(const SourceMesh& first, const MorphableMesh& mesh,
                           const MorphBasis& basis, const SmoothingGroups& groups,
-                          const std::vector<Clip>& clips,
                           const std::vector<ReferenceMotion>& motions) {
   MeshMorph morph = empty_morph(first);
   add_rest(first, mesh, groups, basis.base, morph);
@@ -167,8 +167,8 @@ MeshMorph make_mesh_morph(const SourceMesh& first, const MorphableMesh& mesh,
       begin += count;
     }
   }
-  for (std::size_t c = 0; c < clips.size(); ++c) {
-    morph.clips.push_back({clips[c].name, basis.clips[c].times, basis.clips[c].weights});
+  for (std::size_t c = 0; c < motions.size(); ++c) {
+    morph.clips.push_back({motions[c].name, basis.clips[c].times, basis.clips[c].weights});
   }
   return morph;
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <string>
 #include <vector>
 
 #include "morphbake/basis/morph_basis.h"
@@ -13,6 +14,7 @@ namespace morphbake {
 struct ReferenceMotion {
   std::vector<double> frame_times;                     ///< seconds, rising
   std::function<Positions(double time)> positions_at;  ///< #V by 3, scene space
+  std::string name = {};                               ///< of the clip that it is
 };
 
 /// The motion of a separable timeline, exact at any time.
@@ -35,10 +37,9 @@ ReferenceMotion motion_of(const ReferenceMotion& motion, const Clip& clip);
 ///
 /// Normal targets are the least-squares fit of the deformed normals over all frames to the weights:
 /// normals are not linear in them. Vertices that do not move keep the file's own bytes.
-/// @param clips  with their motions, one each
+/// @param motions  one a clip of the basis
 MeshMorph make_mesh_morph(const SourceMesh& first, const MorphableMesh& mesh,
                           const MorphBasis& basis, const SmoothingGroups& groups,
-                          const std::vector<Clip>& clips,
                           const std::vector<ReferenceMotion>& motions);
 
 /// A plain mesh at `positions`, without targets.

@@ -106,7 +106,7 @@ Positions fitted(const Positions& from, const Positions& to, const Eigen::Vector
   const Eigen::Matrix3d covariance = b.transpose() * w.asDiagonal() * a;
   const Eigen::JacobiSVD<Eigen::Matrix3d> svd(covariance,
                                               Eigen::ComputeFullU | Eigen::ComputeFullV);
-  const Eigen::Vector3d sigma = svd.singularValues();
+  const Eigen::Vector3d& sigma = svd.singularValues();
   if (!(sigma(1) > 1e-9 * sigma(0))) return {};  // in one line: any turn about it fits
   Eigen::Vector3d sign = Eigen::Vector3d::Ones();
   sign(2) = svd.matrixU().determinant() * svd.matrixV().determinant() < 0 ? -1 : 1;

@@ -191,7 +191,7 @@ class RingFinder {
   void join_triangles() {
     across_.assign(static_cast<std::size_t>(mesh_.triangles.size()), -1);
     const auto corner = [](const TriangleSide& side) {
-      return static_cast<std::size_t>(3 * side.triangle + side.corner);
+      return 3 * static_cast<std::size_t>(side.triangle) + static_cast<std::size_t>(side.corner);
     };
     for_each_edge(sorted_sides(mesh_.triangles), [&](auto first, auto last) {
       if (last - first != 2) return;

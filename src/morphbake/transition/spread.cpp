@@ -22,7 +22,7 @@ Eigen::VectorXd spread_values(const Connectivity& connectivity,
   }
   if (unknowns.empty()) return values;
 
-  // K W with W = 1 / sqrt(degree): the unknowns' columns of its transpose, P, give P^T P.
+  // Rows of K over the roots of their degrees; of its columns those of the unknowns.
   const OneRings rings = one_rings(connectivity);
   const Eigen::SparseMatrix<double> K = symmetric_laplacian(rings);
   const Eigen::VectorXd scale = K.diagonal().cwiseMax(1).cwiseSqrt().cwiseInverse();
@@ -32,11 +32,11 @@ Eigen::VectorXd spread_values(const Connectivity& connectivity,
   for (std::size_t i = 0; i < unknowns.size(); ++i) {
     selection.insert(unknowns[i], static_cast<Eigen::Index>(i)) = 1;
   }
-  const Eigen::SparseMatrix<double> P = rows * selection;
+  const Eigen::SparseMatrix<double> columns = rows * selection;
   SymmetricSystem system;
-  system.matrix = P.transpose() * P;
+  system.matrix = columns.transpose() * columns;
   system.singular_block.assign(unknowns.size(), -1);
-  const Eigen::MatrixXd b = -(P.transpose() * (rows * values));
+  const Eigen::MatrixXd b = -(columns.transpose() * (rows * values));
   values(unknowns) = CholeskyFactor(system).solve(b).col(0);
   return values;
 }
