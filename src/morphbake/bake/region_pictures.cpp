@@ -61,10 +61,7 @@ AnimatedMesh painted(const Positions& positions, const Triangles& triangles, Col
   AnimatedPrimitive& primitive = mesh.primitives.emplace_back();
   primitive.positions = centred.cast<float>();
   primitive.triangles = triangles;
-  const std::vector<int> smooth(triangles.data(), triangles.data() + triangles.size());
-  primitive.normals =
-      corner_group_normals(centred, triangles, smooth, static_cast<int>(centred.rows()))
-          .cast<float>();
+  primitive.normals = smooth_normals(centred, triangles).cast<float>();
   primitive.colours = std::move(colours);
   return mesh;
 }

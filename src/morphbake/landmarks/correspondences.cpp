@@ -20,20 +20,13 @@ constexpr double kOnPlane = 0.1;        // in `reach`: from a vertex on the plan
 constexpr double kOfTip = 0.15;         // in `reach`: what belongs to a tip
 constexpr double kOffPlane = 0.06;      // of the diagonal: nearer to the mirror plane is on it
 
-Normals vertex_normals(const Mesh& mesh) {
-  std::vector<int> groups(static_cast<std::size_t>(mesh.triangles.size()));
-  std::copy_n(mesh.triangles.data(), groups.size(), groups.begin());
-  return corner_group_normals(mesh.positions, mesh.triangles, groups,
-                              static_cast<int>(mesh.positions.rows()));
-}
-
 }  // namespace
 
 Side::Side(const ShapeSketch& shape)
     : sketch(shape),
       symmetry(find_symmetry(shape)),
       distances(shape.mesh),
-      normals(vertex_normals(shape.mesh)) {}
+      normals(smooth_normals(shape.mesh.positions, shape.mesh.triangles)) {}
 
 double Side::to_landmark(int vertex) const {
   double nearest = std::numeric_limits<double>::infinity();

@@ -29,6 +29,11 @@ Normals corner_group_normals(const Positions& positions, const Triangles& triang
   return sums;
 }
 
+Normals smooth_normals(const Positions& positions, const Triangles& triangles) {
+  const std::vector<int> vertices(triangles.data(), triangles.data() + triangles.size());
+  return corner_group_normals(positions, triangles, vertices, static_cast<int>(positions.rows()));
+}
+
 Eigen::Vector3d carry_normal(const Eigen::Vector3d& from, const Eigen::Vector3d& to,
                              const Eigen::Vector3d& normal) {
   const double cosine = from.dot(to);

@@ -16,6 +16,9 @@ namespace morphbake {
 Normals corner_group_normals(const Positions& positions, const Triangles& triangles,
                              const std::vector<int>& corner_groups, int group_count);
 
+/// One a vertex, as if the surface had no hard edge.
+Normals smooth_normals(const Positions& positions, const Triangles& triangles);
+
 /// The rotation of least angle that takes unit vector `from` to unit vector `to`, applied to
 /// `normal`.
 Eigen::Vector3d carry_normal(const Eigen::Vector3d& from, const Eigen::Vector3d& to,

@@ -125,7 +125,7 @@ class RegionBuilder {
       const Mesh& mesh = survey(rings->source).mesh;
       found =
           find_rings(mesh, points(rings->source, rings->inner), points(rings->source, rings->outer),
-                     location_of(recipe_, region, "rings"));
+                     rings->distance, location_of(recipe_, region, "rings"));
       ask_distance(region, rings->source, vertex_points(mesh, found.inner), rings->distance);
       ask_distance(region, rings->source, vertex_points(mesh, found.outer), rings->distance);
     }

@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <limits>
 #include <queue>
 #include <set>
+#include <span>
 #include <utility>
 
 #include "morphbake/mesh/adjacency.h"
@@ -19,6 +21,12 @@ namespace {
 struct Loop {
   std::string name;  ///< "inner", for messages
   std::vector<int> vertices;
+};
+
+/// A vertex that a loop goes through.
+struct Waypoint {
+  int vertex = 0;
+  Eigen::VectorXd distances;  ///< #V: from it; 0 where edges alone count
 };
 
 using Edge = std::pair<int, int>;  // smaller vertex first
@@ -35,7 +43,8 @@ class RingFinder {
     join_triangles();
   }
 
-  Loop loop(const char* name, const PointSet& points) const {
+  /// The vertices nearest to a loop's points.
+  std::vector<int> corners(const char* name, const PointSet& points) const {
     std::vector<int> corners;
     for (const SurfacePoint& at : points) {
       const int vertex = nearest_corner(mesh_, at);
@@ -46,9 +55,27 @@ class RingFinder {
       fail(name, fmt::format("its points lie at {} vertices; a loop needs three", corners.size()),
            "set them further apart, or refine the mesh there");
     }
+    return corners;
+  }
+
+  /// Vertices with the distances that tell what lies between them.
+  std::vector<Waypoint> waypoints(const std::vector<int>& vertices, DistanceMeasure measure) const {
+    std::vector<Waypoint> found;
+    for (const int v : vertices)
+      found.push_back({v, Eigen::VectorXd::Zero(mesh_.positions.rows())});
+    if (measure != DistanceMeasure::Geodesic) return found;
+    std::vector<PointSet> sets;
+    for (const SurfacePoint& at : vertex_points(mesh_, vertices)) sets.push_back({at});
+    std::vector<Eigen::VectorXd> distances = geodesic_distances(mesh_, sets, where_);
+    for (std::size_t i = 0; i < found.size(); ++i) found[i].distances = std::move(distances[i]);
+    return found;
+  }
+
+  Loop loop(const char* name, std::span<const Waypoint> waypoints) const {
     Loop loop{name, {}};
-    for (std::size_t i = 0; i < corners.size(); ++i) {
-      const std::vector<int> path = shortest_path(corners[i], corners[(i + 1) % corners.size()]);
+    for (std::size_t i = 0; i < waypoints.size(); ++i) {
+      const std::vector<int> path =
+          shortest_path(waypoints[i], waypoints[(i + 1) % waypoints.size()]);
       if (path.empty()) fail(name, "its points lie on different pieces", "keep to one piece");
       loop.vertices.insert(loop.vertices.end(), path.begin(), path.end() - 1);
     }
@@ -123,9 +150,23 @@ class RingFinder {
     return std::lexicographical_compare(p.begin(), p.end(), q.begin(), q.end());
   }
 
+  /// How much longer ways count at each vertex, so that they keep to the geodesic: along the edges
+  /// of a regular mesh many ways are nearly as short, far apart. By the detour over the vertex.
+  static Eigen::VectorXd detours(const Waypoint& from, const Waypoint& to) {
+    constexpr double kWeight = 10;
+    const double length = from.distances(to.vertex);
+    if (!(length > 0) || !std::isfinite(length)) {
+      return Eigen::VectorXd::Ones(from.distances.size());
+    }
+    const Eigen::ArrayXd detour = (from.distances + to.distances).array() - length;
+    return 1 + kWeight * (detour / length).max(0).min(1);
+  }
+
   /// Vertices from `from` to `to`, or none. Of paths of one length the same is taken however
   /// vertices are numbered.
-  std::vector<int> shortest_path(int from, int to) const {
+  std::vector<int> shortest_path(const Waypoint& first, const Waypoint& last) const {
+    const int from = first.vertex, to = last.vertex;
+    const Eigen::VectorXd detour = detours(first, last);
     std::vector<double> length(static_cast<std::size_t>(mesh_.positions.rows()),
                                std::numeric_limits<double>::infinity());
     std::vector<int> before(length.size(), -1);
@@ -143,7 +184,8 @@ class RingFinder {
         const int neighbour = rings_.neighbours[static_cast<std::size_t>(n)];
         const auto j = static_cast<std::size_t>(neighbour);
         const double sum =
-            so_far + (mesh_.positions.row(neighbour) - mesh_.positions.row(vertex)).norm();
+            so_far + (detour(neighbour) + detour(vertex)) / 2 *
+                         (mesh_.positions.row(neighbour) - mesh_.positions.row(vertex)).norm();
         // A way grows at each step, or ways between vertices at one place would lead to each other.
         const bool is_tie =
             sum == length[j] && sum > so_far && before[j] >= 0 && is_before(vertex, before[j]);
@@ -210,9 +252,16 @@ class RingFinder {
 }  // namespace
 
 Rings find_rings(const Mesh& mesh, const PointSet& inner, const PointSet& outer,
-                 const Location& where) {
+                 DistanceMeasure measure, const Location& where) {
   const RingFinder finder(mesh, where);
-  const Loop inner_loop = finder.loop("inner", inner), outer_loop = finder.loop("outer", outer);
+  std::vector<int> corners = finder.corners("inner", inner);
+  const std::size_t inner_count = corners.size();
+  const std::vector<int> outer_corners = finder.corners("outer", outer);
+  corners.insert(corners.end(), outer_corners.begin(), outer_corners.end());
+  const std::vector<Waypoint> waypoints = finder.waypoints(corners, measure);
+  const std::span<const Waypoint> all(waypoints);
+  const Loop inner_loop = finder.loop("inner", all.first(inner_count));
+  const Loop outer_loop = finder.loop("outer", all.subspan(inner_count));
   finder.check_apart(inner_loop, outer_loop);
   Rings rings{inner_loop.vertices, outer_loop.vertices, {}, {}};
   rings.is_inside = finder.cut_off(inner_loop, outer_loop);

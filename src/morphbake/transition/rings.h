@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "morphbake/diagnostics/problem.h"
+#include "morphbake/recipe/region.h"
 #include "morphbake/transition/surface_distance.h"
 
 namespace morphbake {
@@ -15,16 +16,20 @@ struct Rings {
   std::vector<bool> is_outside;  ///< #V: on the outer loop, cut off by it, or on another component
 };
 
-/// Joins the points of each loop by shortest paths along edges and finds what lies inside the inner
-/// and outside the outer one.
+/// Joins the points of each loop by paths along edges and finds what lies inside the inner and
+/// outside the outer one.
 ///
+/// Paths keep to the geodesics, or with another measure are the shortest along edges, which on a
+/// regular mesh may lie far from these.
 /// @param inner, outer  three or more points each, in order
 /// @param where         of the region, for messages
-/// @throws BakeError "recipe.ring": a loop that meets itself or the other, whose points cannot be
+/// @cost   one factorisation for geodesics
+/// @throws BakeError "transition.distance-failed"; "recipe.ring": a loop that meets itself or the
+/// other, whose points cannot be
 ///         joined, or that does not cut anything off
 /// @see    Alexa 2003, section 5.1
 Rings find_rings(const Mesh& mesh, const PointSet& inner, const PointSet& outer,
-                 const Location& where);
+                 DistanceMeasure measure, const Location& where);
 
 /// d = d_in / (d_in + d_out) between the rings.
 ///

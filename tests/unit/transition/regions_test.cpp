@@ -5,10 +5,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <numbers>
 #include <numeric>
 #include <random>
 
 #include "morphbake/diagnostics/problem.h"
+#include "morphbake/mesh/closest_point.h"
+#include "morphbake/transition/rings.h"
 #include "shapes/shapes.h"
 
 namespace morphbake {
@@ -149,6 +153,43 @@ TEST(Falloffs, KeepTheEndsAndTheMiddle) {
   EXPECT_NEAR(bent_by(Falloff::Smoothstep, Vector3d::Constant(0.25))(0), 0.15625, 1e-15);
   EXPECT_NEAR(bent_by(Falloff::Cosine, Vector3d::Constant(0.25))(0), (1 - std::sqrt(0.5)) / 2,
               1e-15);
+}
+
+/// Distance of a point from the polygon through points, closed.
+double distance_from(const std::vector<Vector3d>& polygon, const Vector3d& point) {
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const Vector3d a = polygon[i], way = polygon[(i + 1) % polygon.size()] - a;
+    const double share = std::clamp((point - a).dot(way) / way.squaredNorm(), 0.0, 1.0);
+    least = std::min(least, (point - a - share * way).norm());
+  }
+  return least;
+}
+
+TEST(RingsOfFewPoints, KeepToTheGeodesics) {
+  // On a grid, whose diagonals lead one way, many ways along edges are equally short, far apart.
+  const Mesh mesh = test::grid(61, 61);
+  const auto square = [&](double radius) {
+    std::vector<Vector3d> corners;
+    for (int i = 0; i < 4; ++i) {
+      const double angle = 0.6 + i * std::numbers::pi / 2;
+      corners.emplace_back(30 + radius * std::cos(angle), 30 + radius * std::sin(angle), 0);
+    }
+    return corners;
+  };
+  const auto points = [&](const std::vector<Vector3d>& corners) {
+    PointSet set;
+    for (const Vector3d& corner : corners) set.push_back(closest_point(mesh, corner));
+    return set;
+  };
+  const std::vector<Vector3d> inner = square(12), outer = square(20);
+  const Rings rings = find_rings(mesh, points(inner), points(outer), DistanceMeasure::Geodesic, {});
+  for (const int v : rings.inner) {
+    EXPECT_LT(distance_from(inner, mesh.positions.row(v)), 2.5) << mesh.positions.row(v);
+  }
+  for (const int v : rings.outer) {
+    EXPECT_LT(distance_from(outer, mesh.positions.row(v)), 2.5) << mesh.positions.row(v);
+  }
 }
 
 TEST(Scattered, BendAsLittleAsTheyCanBetweenTheirPoints) {
