@@ -19,7 +19,7 @@ run 0 bake sweep.json -o again --threads 1
 cmp -s sweep/regions.glb again/regions.glb || wrong "a sweep differs with one thread"
 jq '.outputs = [{file: "x.glb", targets: "tracks"}]' sweep.json >tracks.json
 run 2 validate tracks.json
-stderr_has "#/outputs/0: error: \"tracks\" targets are shapes that are solved once; here a region moves or floods"
+stderr_has "#/outputs/0/targets: error: \"tracks\" targets are shapes that are solved once; here a region moves or floods"
 jq '.hold = ["r"]' sweep.json >held.json
 run 2 validate held.json
 stderr_has "#/hold/0: error: the region r changes with time [recipe.moving-region]"
@@ -44,7 +44,7 @@ name=bad
 recipe bad '{"spatial": {"expression": "x + * y"}}'
 refused 2 '#/regions/r/spatial/expression: error: "x + * y" cannot be read'
 recipe bad '{"spatial": {"expression": "1 / (x - x)"}}'
-refused 2 '#/regions/r/spatial: error: "1 / (x - x)" is'
+refused 2 '#/regions/r/spatial/expression: error: "1 / (x - x)" is'
 recipe bad '{"spatial": {"expression": "sqrt(x) - w"}}'
 refused 2 'w'
 for assignment in 'x = 5' 'y=x' '(x=0)+y'; do
@@ -76,10 +76,11 @@ run 0 validate diamond.json
 # More tracks than shapes can be: solved as frames, and as tracks refused.
 jq '.timeline.tracks = [range(300) | {name: "t\(.)", region: "nose", to: "stout", begin: (. / 300), end: ((. + 1) / 300)}]' sweep.json >many.json
 run 0 bake many.json -o many
+stderr_has "[transition.too-many-overlaps]"
 [ "$(targets_of many/regions.glb)" = 4 ] || wrong "300 tracks over 4 frames have $(targets_of many/regions.glb) targets"
 jq '.outputs = [{file: "x.glb", targets: "tracks"}]' many.json >many_tracks.json
 run 2 validate many_tracks.json
-stderr_has '#/outputs/0: error: "tracks" targets are shapes that are solved once; here more than 255 are needed'
+stderr_has '#/outputs/0/targets: error: "tracks" targets are shapes that are solved once; more than 255 are needed here'
 # A spatial region on shapes that are all derived lies in the coordinates of their file.
 recipe far '{"spatial": {"half_space": {"normal": [0, 0, 1]}}}' \
   '{"sources": {"high": {"transform": {"of": "stout", "scale": 2}}}, "timeline": {"start": "high", "tracks": [{"name": "t", "region": "r", "to": "high", "begin": 0, "end": 1}]}, "preview": {"maps": ["regions"]}}'
@@ -89,7 +90,7 @@ run 0 bake near.json -o near
 cmp -s far/regions.regions.png near/regions.regions.png || wrong "a derived shape has other coordinates than its file"
 # What goes wrong later has its place as well.
 recipe bad '{"spatial": {"expression": "1 / (t - 1)"}}'
-refused 2 '#/regions/r/spatial: error: "1 / (t - 1)" is'
+refused 2 '#/regions/r/spatial/expression: error: "1 / (t - 1)" is'
 recipe bad '{"ball": {"on": "base", "at": {"position": [9, 9, 9]}, "inner": 0.1, "outer": 0.2}}'
 refused 2 '#/regions/r/ball/at: error: (9, 9, 9) is'
 stderr_has '[landmarks.off-surface]'
@@ -118,6 +119,9 @@ stderr_has '[derive.overlapping-handles]'
 recipe bad '{"ball": {"on": "base", "at": "nose", "inner": 0.2, "outer": 0.3}}' \
   '{"sources": {"flat": {"mirror": {"of": "base", "normal": [0, 0, 1]}}}}'
 refused 2 '[derive.not-symmetric]'
+
+recipe bad '{"spatial": {"half_space": {"normal": {"keys": [{"time": 0, "value": [1, 0, 0]}, {"time": 1, "value": [-2, 0, 0]}]}}}}'
+refused 2 '#/regions/r/spatial/half_space/normal/keys/1/value: error: it is opposite to the key before'
 
 # A primitive is a mask; the fox's scarf or hat is one by its material.
 recipe whole '{"mask": {"on": "base", "primitive": 0}}' '{"outputs": [{"file": "end.glb", "still": {"at": 1}}, {"file": "stout.glb", "still": {"at": "stout"}}]}'

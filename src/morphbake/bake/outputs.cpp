@@ -34,14 +34,16 @@ void warn_of_no_targets(const Recipe& recipe, std::size_t index, const Observer&
 }
 
 /// @param count  targets of the mesh that is written: its own and the new ones
-void warn_of_targets(const Recipe& recipe, std::size_t index, std::size_t count,
+void warn_of_targets(const SolvedRecipe& solved, std::size_t index, std::size_t count,
                      const Observer& observer) {
   if (count <= kEngineTargetLimit) return;
   report(observer, Problem{Severity::Warning, "export.many-targets",
-                           location_in(recipe, fmt::format("/outputs/{}/targets", index)),
+                           location_in(solved.recipe, fmt::format("/outputs/{}/targets", index)),
                            fmt::format("{} morph targets; three.js and Babylon.js read at most {}",
                                        count, kEngineTargetLimit),
-                           "use \"targets\": \"tracks\", a lower fps or a shorter timeline"});
+                           solved.timeline.shapes.base.rows() > 0
+                               ? "use \"targets\": \"tracks\", a lower fps or a shorter timeline"
+                               : "use a lower fps or a shorter timeline"});
 }
 
 /// Posed vertices must not be posed again.
@@ -162,7 +164,7 @@ StagedOutput stage_output(const SolvedRecipe& solved, std::size_t index, const B
   staged.file = outputs.stage(output.file, bytes);
   WrittenMesh written = read_written_mesh(bytes, output.file, node, clips);
   const std::vector<std::string>& names = written.mesh.target_names;
-  if (added > 0) warn_of_targets(solved.recipe, index, names.size(), observer);
+  if (added > 0) warn_of_targets(solved, index, names.size(), observer);
   // Without targets nothing moves, and one weight at rest stands for all clips.
   written.clips.resize(motions.size(), written.clips.front());
   const MorphError error = measure_clips(solved, written, motions);

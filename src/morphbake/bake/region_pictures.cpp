@@ -172,9 +172,8 @@ Image region_sheet(const Recipe& recipe, const MorphableMesh& mesh, const Region
       const RegionMoment moment{field.moves ? way * recipe.timeline.duration : 0,
                                 field.floods ? way : 1};
       const Eigen::VectorXd d = distance_at(regions, static_cast<int>(r), moment);
-      const std::string when = field.moves    ? fmt::format(" {:.2f} s", moment.time)
-                               : field.floods ? fmt::format(" {:.0f} %", 100 * way)
-                                              : "";
+      std::string when = field.moves ? fmt::format(" {:.2f} s", moment.time) : "";
+      if (field.floods) when += fmt::format(" {:.0f} %", 100 * way);
       const double azimuth = changes
                                  ? options.turntable.azimuth
                                  : azimuth_of(positions, triangles, d, options.turntable.azimuth);

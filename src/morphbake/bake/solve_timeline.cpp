@@ -184,7 +184,7 @@ void refuse_tracks(const Recipe& recipe, const std::string& reason) {
     const Output& output = recipe.outputs[i];
     if (output.still || output.targets != TargetKind::Tracks) continue;
     throw BakeError(Problem{Severity::Error, "recipe.needs-frames",
-                            location_in(recipe, child_pointer("/outputs", i)),
+                            location_in(recipe, child_pointer("/outputs", i) + "/targets"),
                             "\"tracks\" targets are shapes that are solved once; " + reason,
                             "write \"targets\": \"frames\""});
   }
@@ -219,7 +219,8 @@ void check_still_regions(const Recipe& recipe, const RegionFields& regions) {
 
 /// The timeline as shapes, where it is made of them, once all is checked.
 std::optional<SeparableTimeline> shapes_of(const Recipe& recipe, const RegionFields& regions,
-                                           Eigen::Index count, const SolveOptions& options) {
+                                           Eigen::Index count, const SolveOptions& options,
+                                           const Observer& observer) {
   check_still_regions(recipe, regions);
   if (options.every_frame) {
     refuse_tracks(recipe, "the option /solve/every_frame solves frames instead");
@@ -229,12 +230,18 @@ std::optional<SeparableTimeline> shapes_of(const Recipe& recipe, const RegionFie
     return std::nullopt;
   }
   std::optional<SeparableTimeline> separable = separate_timeline(recipe, regions, count);
-  if (!separable) {
-    refuse_tracks(recipe, fmt::format("here more than {} are needed: one a track, and one for each "
-                                      "combination of tracks that overlap in space and time",
-                                      kMostFields - 1));
-  }
-  return separable;
+  if (separable) return separable;
+  const std::string reason = fmt::format(
+      "more than {} are needed here: one a track, and one for each combination of "
+      "tracks that overlap in space and time",
+      kMostFields - 1);
+  refuse_tracks(recipe, reason);
+  report(observer,
+         Problem{Severity::Warning, "transition.too-many-overlaps",
+                 location_in(recipe, "/timeline/tracks"),
+                 "frames are solved instead of tracks' shapes: " + reason,
+                 "use fewer tracks, and let those that share a region follow one another"});
+  return std::nullopt;
 }
 
 double mean_edge(const MorphableMesh& mesh, const Positions& positions) {
@@ -321,8 +328,8 @@ SolveReport report_of(const SolvedTimeline& solved, std::vector<SolveRecord> rec
 void check_timeline(const Recipe& recipe, const MorphableMesh& mesh, const RegionFields& regions,
                     const SolveOptions& options, const Observer& observer) {
   const Eigen::Index count = mesh.connectivity.vertex_count;
-  const TimelineChanges changes =
-      changes_of(recipe, regions, count, shapes_of(recipe, regions, count, options), observer);
+  const TimelineChanges changes = changes_of(
+      recipe, regions, count, shapes_of(recipe, regions, count, options, observer), observer);
   const auto system = make_system(recipe, mesh, regions, changes, options.right_hand_side);
   choose_solver(*system, options);
 }
@@ -332,8 +339,8 @@ std::unique_ptr<SolvedTimeline> solve_timeline(const Recipe& recipe, const Morph
                                                const SolveOptions& options,
                                                const Observer& observer) {
   const Eigen::Index count = mesh.connectivity.vertex_count;
-  TimelineChanges changes =
-      changes_of(recipe, regions, count, shapes_of(recipe, regions, count, options), observer);
+  TimelineChanges changes = changes_of(
+      recipe, regions, count, shapes_of(recipe, regions, count, options, observer), observer);
   auto solved = std::make_unique<SolvedTimeline>();
   solved->reference = changes.reference;
   solved->system = make_system(recipe, mesh, regions, changes, options.right_hand_side);

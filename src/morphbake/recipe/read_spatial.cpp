@@ -75,6 +75,15 @@ struct ShapeFields {
       if (each.squaredNorm() > 0) continue;
       complain(reading, "recipe.out-of-range", child_pointer(pointer, field),
                "(0, 0, 0) is no direction", "give for example [1, 0, 0]");
+      return direction;
+    }
+    for (std::size_t k = 1; k < direction.values.size(); ++k) {
+      const Eigen::Vector3d before = direction.values[k - 1].normalized();
+      if ((before + direction.values[k].normalized()).norm() > 1e-6) continue;
+      complain(reading, "recipe.out-of-range",
+               child_pointer(child_pointer(pointer, field) + "/keys", k) + "/value",
+               "it is opposite to the key before: between them the direction vanishes",
+               "give a third key between them that is turned sideways");
       break;
     }
     return direction;

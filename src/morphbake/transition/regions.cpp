@@ -175,8 +175,25 @@ class RegionBuilder {
       fixed.push_back(
           {nearest_corner(survey(scattered.source).mesh, at[i]), scattered.values[i].value});
     }
+    check_agree(region, scattered, fixed);
     check_reached(region, scattered.source, fixed);
     return 1 - spread_values(mesh_.connectivity, fixed).array().max(0).min(1);
+  }
+
+  /// Points at one vertex have one value.
+  void check_agree(std::size_t region, const ScatteredRegion& scattered,
+                   const std::vector<FixedValue>& fixed) {
+    std::map<int, std::size_t> first;
+    for (std::size_t i = 0; i < fixed.size(); ++i) {
+      const std::size_t other = first.try_emplace(fixed[i].vertex, i).first->second;
+      if (fixed[i].value == fixed[other].value) continue;
+      const std::string pointer = child_pointer("scattered/values", scattered.values[i].name);
+      throw BakeError(Problem{
+          Severity::Error, "recipe.conflicting-fields", location_of(recipe_, region, pointer),
+          fmt::format("it lies at the same vertex as \"{}\", which has another value",
+                      scattered.values[other].name),
+          "give both the same value, or leave one out"});
+    }
   }
 
   /// Each piece of the surface needs a value of its own.
@@ -221,7 +238,11 @@ class RegionBuilder {
     check_expression(region, spatial);
     RegionField field;
     field.falloff = recipe_.regions[region].falloff;
-    SpatialField form{spatial, {}, location_of(recipe_, region, "spatial")};
+    const bool is_expression = std::holds_alternative<Expression>(spatial.shape);
+    SpatialField form{
+        spatial,
+        {},
+        location_of(recipe_, region, is_expression ? "spatial/expression" : "spatial")};
     const std::vector<int> sources =
         spatial.sources.empty() ? sources_with_a_share(recipe_) : spatial.sources;
     for (const int source : sources) {

@@ -211,6 +211,13 @@ TEST(Scattered, BendAsLittleAsTheyCanBetweenTheirPoints) {
   }
 }
 
+TEST(Scattered, HaveOneValueAtAVertex) {
+  const Mesh mesh = test::grid(5, 5);
+  const ScatteredRegion twice{0, {{"a", Vector3d(0, 0, 0), 1.0}, {"b", Vector3d(0, 0.1, 0), 0.5}}};
+  EXPECT_THAT(problem_of(mesh, {{"s", twice}}),
+              testing::HasSubstr("\"a\", which has another value"));
+}
+
 TEST(Scattered, NeedAPointOnEachPiece) {
   const Mesh mesh = test::joined(test::grid(5, 5), test::sphere(8, 10));
   EXPECT_THAT(problem_of(mesh, {{"s", ScatteredRegion{0, {{"", Vector3d(0, 0, 0), 1.0}}}}}),
