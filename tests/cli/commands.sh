@@ -27,7 +27,7 @@ grep -aq '"extras":{"extras":"of another kind than an object","targetNames":\[' 
 run 0 inspect out/tetrahedra.glb
 stdout_has "4 vertices"
 run 0 inspect out/tetrahedra.glb --json
-jq -e '.largest_displacement > 0.9 and .duration == 1 and (.targets | length) > 0 and .gpu_bytes > 0' \
+jq -e '.largest_displacement > 0.9 and .animations[0].duration == 1 and (.targets | length) > 0 and .gpu_bytes > 0' \
   "$scratch/stdout" >/dev/null || wrong "odd facts: $(cat "$scratch/stdout")"
 
 run 0 preview out/tetrahedra.glb -o turn/stem --size 32x16 --frames 2 --formats gif,sheet
