@@ -23,7 +23,7 @@ class ShiftedFactor {
   /// @param lambda  above 0
   /// @return the lambda that was taken: up to 1e-4 above, relative
   /// @throws BakeError "linear.no-eigenvectors" when every try meets such a pivot
-  /// @cost   0.7 s at 50k vertices
+  /// @cost   0.3 s at 50k vertices
   double factorise(double lambda);
 
   /// One a vertex: which of them are negative counts eigenvalues, by component.

@@ -28,7 +28,7 @@ class SpectrumCount {
 
   /// @return with the lambda that was taken, see ShiftedFactor::factorise
   /// @throws BakeError "linear.no-eigenvectors"
-  /// @cost   a sparse factorisation: 0.7 s at 50k vertices
+  /// @cost   a sparse factorisation: 0.3 s at 50k vertices
   Enclosure below(double lambda);
 
   /// Finds a frequency with `fewest` to `most` eigenvalues below it, by bisection.

@@ -32,7 +32,7 @@ struct BallRegion {
 /// d_in / (d_in + d_out) between them (Alexa 2003, section 5.1).
 struct RingsRegion {
   int source = 0;
-  std::vector<Place> inner;  ///< three or more points, in order; shortest paths join them
+  std::vector<Place> inner;  ///< three or more points, in order; geodesics join them
   std::vector<Place> outer;
   DistanceMeasure distance = DistanceMeasure::Geodesic;
 };
@@ -63,7 +63,7 @@ struct MaskRegion {
   std::variant<AttributeMask, MaterialMask, PrimitiveMask, ImageMask> by;
 };
 
-/// d = 1 - value, spread harmonically from a few points (Alexa 2003, section 2.4).
+/// d = 1 - value, spread smoothly from a few points (Alexa 2003, section 2.4).
 struct ScatteredValue {
   std::string name;  ///< of the landmark, in the recipe
   Place at;
