@@ -165,17 +165,19 @@ ConstraintRequest requested_constraints(const Recipe& recipe, const MorphableMes
   return request;
 }
 
-std::unique_ptr<DisplacementSystem> make_system(const Recipe& recipe, const MorphableMesh& mesh,
-                                                const RegionFields& regions,
-                                                const TimelineChanges& changes,
-                                                RightHandSide rule) {
+StateSystem make_states(const Recipe& recipe, const MorphableMesh& mesh,
+                        const RegionFields& regions, const TimelineChanges& changes,
+                        const SolveOptions& options, const Observer& observer) {
   const Components components = connected_components(one_rings(mesh.connectivity));
   Constraints constraints = choose_constraints(
       mesh, components, changes.untouched, requested_constraints(recipe, mesh, regions, changes));
   // The anchor is the paper's, whose right-hand side is eq. 6.
   const bool is_anchored = recipe.gauge.kind == Gauge::Kind::Anchor;
-  return std::make_unique<DisplacementSystem>(mesh, std::move(constraints),
-                                              is_anchored ? RightHandSide::Vertex : rule);
+  auto displacements = std::make_unique<DisplacementSystem>(
+      mesh, std::move(constraints), is_anchored ? RightHandSide::Vertex : options.right_hand_side);
+  return recipe.representation == Representation::Rotation
+             ? rotation_states(mesh, changes.reference, std::move(displacements), options, observer)
+             : laplacian_states(mesh, changes.reference, std::move(displacements));
 }
 
 /// Refuses targets that are shapes, for a reason: without shapes there are only frames.
@@ -217,6 +219,11 @@ void check_still_regions(const Recipe& recipe, const RegionFields& regions) {
   if (!problems.empty()) throw BakeError(std::move(problems));
 }
 
+/// Whether frames are solved even where the timeline is made of shapes.
+bool solves_frames(const Recipe& recipe, const SolveOptions& options) {
+  return options.every_frame || recipe.representation == Representation::Rotation;
+}
+
 /// The timeline as shapes, where it is made of them, once all is checked.
 std::optional<SeparableTimeline> shapes_of(const Recipe& recipe, const RegionFields& regions,
                                            Eigen::Index count, const SolveOptions& options) {
@@ -227,6 +234,9 @@ std::optional<SeparableTimeline> shapes_of(const Recipe& recipe, const RegionFie
   if (!is_separable(recipe, regions)) {
     refuse_tracks(recipe, "here a region moves or floods, so every frame is another");
     return std::nullopt;
+  }
+  if (recipe.representation == Representation::Rotation) {
+    refuse_tracks(recipe, "what is turned on its way is another shape in every frame");
   }
   std::optional<SeparableTimeline> separable = separate_timeline(recipe, regions, count);
   if (!separable) {
@@ -253,7 +263,7 @@ using ImbalanceAt = std::function<Eigen::RowVector3d(double time)>;
 
 ImbalanceAt imbalance_of(const Recipe& recipe, const SolvedTimeline& solved,
                          const TimelineChanges& changes, int component) {
-  const DisplacementSystem& system = *solved.system;
+  const DisplacementSystem& system = *solved.states->displacements;
   if (!solved.separable) {
     return [&system, &changes, component](double time) -> Eigen::RowVector3d {
       return system.goal(changes.at(time)).imbalance.row(component);
@@ -278,9 +288,11 @@ ImbalanceAt imbalance_of(const Recipe& recipe, const SolvedTimeline& solved,
 void warn_of_spike(const Recipe& recipe, const MorphableMesh& mesh, const SolvedTimeline& solved,
                    const TimelineChanges& changes, const Observer& observer) {
   int anchor = -1;
-  for (const int each : solved.system->constraints().anchor) anchor = std::max(anchor, each);
+  for (const int each : solved.states->displacements->constraints().anchor)
+    anchor = std::max(anchor, each);
   if (anchor < 0) return;
-  const int component = solved.system->components().label[static_cast<std::size_t>(anchor)];
+  const int component =
+      solved.states->displacements->components().label[static_cast<std::size_t>(anchor)];
   const ImbalanceAt imbalance_at = imbalance_of(recipe, solved, changes, component);
   double largest = 0, when = 0;
   for (const double time : frame_times(recipe.timeline)) {
@@ -302,7 +314,7 @@ void warn_of_spike(const Recipe& recipe, const MorphableMesh& mesh, const Solved
 }
 
 SolveReport report_of(const SolvedTimeline& solved, std::vector<SolveRecord> records) {
-  const DisplacementSystem& system = *solved.system;
+  const DisplacementSystem& system = *solved.states->displacements;
   SolveReport report;
   report.solver = name_of(solved.solver->choice().solver);
   report.reason = solved.solver->choice().reason;
@@ -323,8 +335,8 @@ void check_timeline(const Recipe& recipe, const MorphableMesh& mesh, const Regio
   const Eigen::Index count = mesh.connectivity.vertex_count;
   const TimelineChanges changes =
       changes_of(recipe, regions, count, shapes_of(recipe, regions, count, options), observer);
-  const auto system = make_system(recipe, mesh, regions, changes, options.right_hand_side);
-  choose_solver(*system, options);
+  const StateSystem states = make_states(recipe, mesh, regions, changes, options, observer);
+  choose_solver(*states.displacements, options);
 }
 
 std::unique_ptr<SolvedTimeline> solve_timeline(const Recipe& recipe, const MorphableMesh& mesh,
@@ -335,18 +347,22 @@ std::unique_ptr<SolvedTimeline> solve_timeline(const Recipe& recipe, const Morph
   TimelineChanges changes =
       changes_of(recipe, regions, count, shapes_of(recipe, regions, count, options), observer);
   auto solved = std::make_unique<SolvedTimeline>();
-  solved->reference = changes.reference;
-  solved->system = make_system(recipe, mesh, regions, changes, options.right_hand_side);
+  solved->states =
+      std::make_unique<StateSystem>(make_states(recipe, mesh, regions, changes, options, observer));
+  const StateSystem& states = *solved->states;
   solved->separable = std::move(changes.separable);
-  solved->solver = std::make_unique<SurfaceSolver>(*solved->system, options, observer);
+  solved->solver = std::make_unique<SurfaceSolver>(*states.displacements, options, observer);
   std::vector<SolveRecord> records;
-  if (solved->separable && !options.every_frame) {
+  if (solved->separable && !solves_frames(recipe, options)) {
     solved->shapes = solve_fields(*solved->solver, mesh, *solved->separable, observer);
     solved->frames = combined_frames(solved->shapes, *solved->separable, recipe.timeline);
     records = solved->shapes.records;
   } else {
-    SolvedFrames frames = solved_frames(*solved->solver, mixed_positions(mesh, solved->reference),
-                                        frame_times(recipe.timeline), changes.at, observer);
+    const auto goal_at = [&](double time) {
+      return states.goal(transition_at(recipe, regions, count, time));
+    };
+    SolvedFrames frames = solved_frames(*solved->solver, states.rest, frame_times(recipe.timeline),
+                                        goal_at, observer);
     solved->frames = std::move(frames.source);
     records = std::move(frames.records);
   }
@@ -362,23 +378,22 @@ Positions position_at(const Recipe& recipe, const MorphableMesh& mesh, const Reg
                           field_coefficients(recipe.timeline, *solved.separable, time));
   }
   const Eigen::Index count = mesh.connectivity.vertex_count;
-  const Eigen::MatrixXd change =
-      transition_at(recipe, regions, count, time) - uniform_transition(solved.reference, count);
   std::vector<SolveRecord> records;
-  return mixed_positions(mesh, solved.reference) +
-         solve_change(*solved.solver, change, "", records);
+  return solved.states->rest +
+         solve_goal(*solved.solver,
+                    solved.states->goal(transition_at(recipe, regions, count, time)), "", records);
 }
 
 Positions solve_state(const Recipe& recipe, const State& state, const MorphableMesh& mesh,
                       const RegionFields& regions, const SolveOptions& options) {
   const Eigen::Index count = mesh.connectivity.vertex_count;
   const TimelineChanges changes = changes_of_fields(separate_state(state, regions, count));
-  const auto system = make_system(recipe, mesh, regions, changes, options.right_hand_side);
   const Observer nobody;
-  const SurfaceSolver solver(*system, options, nobody);
+  const StateSystem states = make_states(recipe, mesh, regions, changes, options, nobody);
+  const SurfaceSolver solver(*states.displacements, options, nobody);
   std::vector<SolveRecord> records;
-  return mixed_positions(mesh, changes.reference) +
-         solve_change(solver, changes.separable->fields[0].change, state.name, records);
+  return states.rest + solve_goal(solver, states.goal(state_transition(state, regions, count)),
+                                  state.name, records);
 }
 
 }  // namespace morphbake

@@ -5,15 +5,14 @@
 
 #include "morphbake/bake/bake.h"
 #include "morphbake/solve/frame_source.h"
+#include "morphbake/solve/state_system.h"
 
 namespace morphbake {
 
-/// A timeline, solved: its shapes where it is separable, else or with `every_frame` its frames
-/// alone.
+/// A timeline, solved: its shapes where it is made of them, else its frames alone.
 struct SolvedTimeline {
-  Shares reference;                            ///< what displacements start from
   std::optional<SeparableTimeline> separable;  ///< none when regions move or flood, or too many
-  std::unique_ptr<DisplacementSystem> system;
+  std::unique_ptr<StateSystem> states;
   std::unique_ptr<SurfaceSolver> solver;
   SolvedShapes shapes;  ///< empty when frames were solved
   FrameSource frames;

@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include "morphbake/recipe/reading.h"
 
 namespace morphbake {
@@ -45,11 +47,34 @@ void read_gauge(Reading& reading) {
   }
 }
 
+bool has_shares_an_axis(const Recipe& recipe) {
+  const auto is_an_axis = [](const Shares& shares) { return shares.cols() > 1; };
+  return is_an_axis(recipe.timeline.start) ||
+         std::any_of(recipe.states.begin(), recipe.states.end(),
+                     [&](const State& state) { return is_an_axis(state.mix); });
+}
+
+void read_representation(Reading& reading) {
+  if (reading.document.value("representation", "") != "rotation") return;
+  reading.recipe.representation = Representation::Rotation;
+  if (has_shares_an_axis(reading.recipe)) {
+    complain(reading, "recipe.conflicting-fields", "/representation",
+             "axes that mix by themselves cannot be turned",
+             "give each source one share, or leave \"representation\" out");
+  }
+  if (reading.recipe.gauge.kind == Gauge::Kind::Anchor) {
+    complain(reading, "recipe.conflicting-fields", "/representation",
+             "an anchor shows what the paper's own differences do, which are not turned",
+             "take another gauge, or leave \"representation\" out");
+  }
+}
+
 }  // namespace
 
 void read_constraints(Reading& reading) {
   read_hold(reading);
   read_gauge(reading);
+  read_representation(reading);
 }
 
 }  // namespace morphbake

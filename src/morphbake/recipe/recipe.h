@@ -53,6 +53,12 @@ struct ConnectivityRequest {
   VertexSizing sizing = VertexSizing::Curvature;
 };
 
+/// What of the sources is blended, see docs/method.md.
+enum class Representation {
+  Laplacian,  ///< differences along edges (Alexa 2003, section 4.1)
+  Rotation,   ///< differences that are turned along: for sources that are bent or twisted
+};
+
 /// How lengths in a recipe are meant.
 enum class Units { Diagonal, Scene };
 
@@ -199,6 +205,7 @@ struct Recipe {
   std::vector<RegionOfInterest> regions;
   std::vector<State> states;
   Timeline timeline;
+  Representation representation = Representation::Laplacian;
   Hold hold;
   Gauge gauge;
   std::vector<Output> outputs;
