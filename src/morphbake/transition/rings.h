@@ -23,10 +23,9 @@ struct Rings {
 /// regular mesh may lie far from these.
 /// @param inner, outer  three or more points each, in order
 /// @param where         of the region, for messages
-/// @cost   one factorisation for geodesics
+/// @cost   one factorisation for geodesics, beside that of the distances from the loops
 /// @throws BakeError "transition.distance-failed"; "recipe.ring": a loop that meets itself or the
-/// other, whose points cannot be
-///         joined, or that does not cut anything off
+///         other, whose points cannot be joined, or that does not cut anything off
 /// @see    Alexa 2003, section 5.1
 Rings find_rings(const Mesh& mesh, const PointSet& inner, const PointSet& outer,
                  DistanceMeasure measure, const Location& where);

@@ -20,7 +20,7 @@ struct FixedValue {
 /// @param fixed  one or more on each component; of several at one vertex the first counts
 /// @return       #V
 /// @throws BakeError "linear.out-of-memory"
-/// @cost         18 s and 1.6 GB at 500k vertices
+/// @cost         a factorisation, of a matrix with about three times the entries of K_L
 /// @see          Alexa 2003, section 2.4, which leaves the interpolation open
 Eigen::VectorXd spread_values(const Connectivity& connectivity,
                               const std::vector<FixedValue>& fixed);
