@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 #include <numeric>
+#include <optional>
 #include <utility>
 
 #include "morphbake/diagnostics/problem.h"
@@ -35,48 +36,41 @@ Location location_of(const Recipe& recipe, std::size_t region, const std::string
   return location_in(recipe, child_pointer("/regions", name) + "/" + kind);
 }
 
-/// Distances from sets of points of one source that several regions ask for.
-struct DistanceQuery {
-  Location first_asked_at;
-  std::vector<PointSet> sets;
-  std::vector<Eigen::VectorXd> answers;
+/// Where a ball or a flood starts.
+struct StartingPoints {
+  PointSet from;
+  std::size_t index = 0;  ///< among its source's sets, of geodesics
 };
 
 /// What the regions of a recipe need from one source's surface.
 struct Surveyed {
   Mesh mesh;
-  double unit = 1;          ///< scene units of 1 in the recipe's
-  DistanceQuery geodesics;  ///< of all regions: they share the factorisation
+  double unit = 1;                             ///< scene units of 1 in the recipe's
+  std::vector<PointSet> sets;                  ///< geodesics start at, of all regions
+  Location first_asked_at;                     ///< the first region that asks for geodesics
+  std::optional<GeodesicDistances> geodesics;  ///< all regions share the factorisation
 };
 
 class RegionBuilder {
  public:
   RegionBuilder(const MorphableMesh& mesh, const Recipe& recipe,
                 const std::vector<Eigen::VectorXd>& masks)
-      : mesh_(mesh), recipe_(recipe), masks_(masks), plans_(recipe.regions.size()) {}
+      : mesh_(mesh), recipe_(recipe), masks_(masks), sets_(recipe.regions.size()) {}
 
   RegionFields build() {
-    for (std::size_t r = 0; r < plans_.size(); ++r) ask(r);
+    for (std::size_t r = 0; r < sets_.size(); ++r) ask(r);
     for (auto& [source, surveyed] : surveyed_) {
-      DistanceQuery& query = surveyed.geodesics;
-      if (query.sets.empty()) continue;
-      query.answers = geodesic_distances(surveyed.mesh, query.sets, query.first_asked_at);
+      if (surveyed.first_asked_at.pointer.empty()) continue;
+      surveyed.geodesics.emplace(surveyed.mesh, surveyed.sets, surveyed.first_asked_at);
     }
-    RegionFields fields(plans_.size());
-    for (std::size_t r = 0; r < plans_.size(); ++r) fields[r] = field_of(r);
+    RegionFields fields(sets_.size());
+    for (std::size_t r = 0; r < sets_.size(); ++r) fields[r] = field_of(r);
     std::vector<bool> done(fields.size(), false);
     for (std::size_t r = 0; r < fields.size(); ++r) settle_combination(fields, done, r);
     return fields;
   }
 
  private:
-  /// Where a region's distances stand among those of its source.
-  struct Plan {
-    std::vector<std::size_t> queries;
-    std::vector<Eigen::VectorXd> along_edges;
-    Rings rings;
-  };
-
   Surveyed& survey(int source) {
     const auto [entry, is_new] = surveyed_.try_emplace(source);
     if (is_new) {
@@ -96,46 +90,58 @@ class RegionBuilder {
     return closest_points(survey(source).mesh, wanted);
   }
 
-  void ask_distance(std::size_t region, int source, const PointSet& set, DistanceMeasure measure) {
-    Surveyed& surveyed = survey(source);
-    if (measure == DistanceMeasure::Geodesic) {
-      if (surveyed.geodesics.sets.empty()) {
-        surveyed.geodesics.first_asked_at =
-            location_in(recipe_, child_pointer("/regions", recipe_.regions[region].name));
-      }
-      plans_[region].queries.push_back(surveyed.geodesics.sets.size());
-      surveyed.geodesics.sets.push_back(set);
-    } else if (measure == DistanceMeasure::Edges) {
-      plans_[region].along_edges.push_back(edge_distances(surveyed.mesh, set));
-    } else {
-      std::vector<int> vertices;
-      for (const SurfacePoint& at : set) vertices.push_back(nearest_corner(surveyed.mesh, at));
-      plans_[region].along_edges.push_back(hop_distances(surveyed.mesh, vertices));
-    }
-  }
-
+  /// Says from which points a region measures geodesics, before any are measured.
   void ask(std::size_t region) {
     const auto& shape = recipe_.regions[region].shape;
     if (const auto* ball = std::get_if<BallRegion>(&shape)) {
-      ask_distance(region, ball->source, points(ball->source, {ball->centre}), ball->distance);
+      ask_from(region, ball->source, {ball->centre}, ball->distance);
     } else if (const auto* flood = std::get_if<FloodRegion>(&shape)) {
-      ask_distance(region, flood->source, points(flood->source, flood->seeds), flood->distance);
+      ask_from(region, flood->source, flood->seeds, flood->distance);
     } else if (const auto* rings = std::get_if<RingsRegion>(&shape)) {
-      Rings& found = plans_[region].rings;
-      const Mesh& mesh = survey(rings->source).mesh;
-      found =
-          find_rings(mesh, points(rings->source, rings->inner), points(rings->source, rings->outer),
-                     rings->distance, location_of(recipe_, region, "rings"));
-      ask_distance(region, rings->source, vertex_points(mesh, found.inner), rings->distance);
-      ask_distance(region, rings->source, vertex_points(mesh, found.outer), rings->distance);
+      ask_from(region, rings->source, {}, rings->distance);  // they start at vertices
     }
   }
 
-  /// The i-th distance that a region asked for.
-  const Eigen::VectorXd& answer(std::size_t region, int source, std::size_t i) {
-    const Plan& plan = plans_[region];
-    if (i < plan.along_edges.size()) return plan.along_edges[i];
-    return survey(source).geodesics.answers[plan.queries[i]];
+  void ask_from(std::size_t region, int source, const std::vector<Place>& places,
+                DistanceMeasure measure) {
+    Surveyed& surveyed = survey(source);
+    sets_[region].from = points(source, places);
+    if (measure != DistanceMeasure::Geodesic) return;
+    if (surveyed.first_asked_at.pointer.empty()) {
+      surveyed.first_asked_at =
+          location_in(recipe_, child_pointer("/regions", recipe_.regions[region].name));
+    }
+    if (places.empty()) return;
+    sets_[region].index = surveyed.sets.size();
+    surveyed.sets.push_back(sets_[region].from);
+  }
+
+  /// Distances of a ball or a flood from where it starts.
+  Eigen::VectorXd distances(std::size_t region, int source, DistanceMeasure measure) {
+    Surveyed& surveyed = survey(source);
+    const auto& [from, index] = sets_[region];
+    if (measure == DistanceMeasure::Geodesic) return surveyed.geodesics->from_set(index);
+    if (measure == DistanceMeasure::Edges) return edge_distances(surveyed.mesh, from);
+    std::vector<int> vertices;
+    for (const SurfacePoint& at : from) vertices.push_back(nearest_corner(surveyed.mesh, at));
+    return hop_distances(surveyed.mesh, vertices);
+  }
+
+  /// Distances of rings from one of their loops.
+  static Eigen::VectorXd distances_from(Surveyed& surveyed, const std::vector<int>& vertices,
+                                        DistanceMeasure measure) {
+    if (measure == DistanceMeasure::Geodesic) return surveyed.geodesics->from_vertices(vertices);
+    return edge_distances(surveyed.mesh, vertex_points(surveyed.mesh, vertices));
+  }
+
+  Eigen::VectorXd distances_between(std::size_t region, const RingsRegion& rings) {
+    Surveyed& surveyed = survey(rings.source);
+    const bool are_geodesic = rings.distance == DistanceMeasure::Geodesic;
+    const Rings found = find_rings(
+        surveyed.mesh, points(rings.source, rings.inner), points(rings.source, rings.outer),
+        are_geodesic ? &*surveyed.geodesics : nullptr, location_of(recipe_, region, "rings"));
+    return ring_distance(found, distances_from(surveyed, found.inner, rings.distance),
+                         distances_from(surveyed, found.outer, rings.distance));
   }
 
   RegionField field_of(std::size_t region) {
@@ -144,11 +150,10 @@ class RegionBuilder {
     field.falloff = of.falloff;
     if (const auto* ball = std::get_if<BallRegion>(&of.shape)) {
       const double unit = survey(ball->source).unit;
-      field.form =
-          soft_step(answer(region, ball->source, 0), ball->inner * unit, ball->outer * unit);
+      field.form = soft_step(distances(region, ball->source, ball->distance), ball->inner * unit,
+                             ball->outer * unit);
     } else if (const auto* rings = std::get_if<RingsRegion>(&of.shape)) {
-      field.form = ring_distance(plans_[region].rings, answer(region, rings->source, 0),
-                                 answer(region, rings->source, 1));
+      field.form = distances_between(region, *rings);
     } else if (std::holds_alternative<MaskRegion>(of.shape)) {
       field.form = (1 - masks_[region].array()).matrix().eval();
     } else if (const auto* scattered = std::get_if<ScatteredRegion>(&of.shape)) {
@@ -266,7 +271,7 @@ class RegionBuilder {
   }
 
   FloodField flood_field(std::size_t region, const FloodRegion& flood) {
-    const Eigen::VectorXd& r = answer(region, flood.source, 0);
+    const Eigen::VectorXd r = distances(region, flood.source, flood.distance);
     const Components components = connected_components(one_rings(mesh_.connectivity));
     std::vector<bool> reached(static_cast<std::size_t>(components.count), true);
     for (Eigen::Index v = 0; v < r.size(); ++v) {
@@ -296,7 +301,7 @@ class RegionBuilder {
   const MorphableMesh& mesh_;
   const Recipe& recipe_;
   const std::vector<Eigen::VectorXd>& masks_;
-  std::vector<Plan> plans_;
+  std::vector<StartingPoints> sets_;  // one a region
   std::map<int, Surveyed> surveyed_;
   std::map<int, std::shared_ptr<const Positions>> coordinates_;
 };

@@ -59,15 +59,13 @@ class RingFinder {
   }
 
   /// Vertices with the distances that tell what lies between them.
-  std::vector<Waypoint> waypoints(const std::vector<int>& vertices, DistanceMeasure measure) const {
+  std::vector<Waypoint> waypoints(const std::vector<int>& vertices,
+                                  GeodesicDistances* geodesics) const {
     std::vector<Waypoint> found;
-    for (const int v : vertices)
-      found.push_back({v, Eigen::VectorXd::Zero(mesh_.positions.rows())});
-    if (measure != DistanceMeasure::Geodesic) return found;
-    std::vector<PointSet> sets;
-    for (const SurfacePoint& at : vertex_points(mesh_, vertices)) sets.push_back({at});
-    std::vector<Eigen::VectorXd> distances = geodesic_distances(mesh_, sets, where_);
-    for (std::size_t i = 0; i < found.size(); ++i) found[i].distances = std::move(distances[i]);
+    for (const int v : vertices) {
+      found.push_back({v, geodesics != nullptr ? geodesics->from_vertices({v})
+                                               : Eigen::VectorXd::Zero(mesh_.positions.rows())});
+    }
     return found;
   }
 
@@ -252,13 +250,13 @@ class RingFinder {
 }  // namespace
 
 Rings find_rings(const Mesh& mesh, const PointSet& inner, const PointSet& outer,
-                 DistanceMeasure measure, const Location& where) {
+                 GeodesicDistances* geodesics, const Location& where) {
   const RingFinder finder(mesh, where);
   std::vector<int> corners = finder.corners("inner", inner);
   const std::size_t inner_count = corners.size();
   const std::vector<int> outer_corners = finder.corners("outer", outer);
   corners.insert(corners.end(), outer_corners.begin(), outer_corners.end());
-  const std::vector<Waypoint> waypoints = finder.waypoints(corners, measure);
+  const std::vector<Waypoint> waypoints = finder.waypoints(corners, geodesics);
   const std::span<const Waypoint> all(waypoints);
   const Loop inner_loop = finder.loop("inner", all.first(inner_count));
   const Loop outer_loop = finder.loop("outer", all.subspan(inner_count));

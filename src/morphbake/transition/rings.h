@@ -3,7 +3,6 @@
 #include <vector>
 
 #include "morphbake/diagnostics/problem.h"
-#include "morphbake/recipe/region.h"
 #include "morphbake/transition/surface_distance.h"
 
 namespace morphbake {
@@ -19,16 +18,16 @@ struct Rings {
 /// Joins the points of each loop by paths along edges and finds what lies inside the inner and
 /// outside the outer one.
 ///
-/// Paths keep to the geodesics, or with another measure are the shortest along edges, which on a
-/// regular mesh may lie far from these.
+/// Paths keep to the geodesics, or without these are the shortest along edges, which on a regular
+/// mesh may lie far from them.
 /// @param inner, outer  three or more points each, in order
+/// @param geodesics     of this mesh, or none
 /// @param where         of the region, for messages
-/// @cost   one factorisation for geodesics, beside that of the distances from the loops
 /// @throws BakeError "transition.distance-failed"; "recipe.ring": a loop that meets itself or the
 ///         other, whose points cannot be joined, or that does not cut anything off
 /// @see    Alexa 2003, section 5.1
 Rings find_rings(const Mesh& mesh, const PointSet& inner, const PointSet& outer,
-                 DistanceMeasure measure, const Location& where);
+                 GeodesicDistances* geodesics, const Location& where);
 
 /// d = d_in / (d_in + d_out) between the rings.
 ///

@@ -12,7 +12,9 @@
 #include <array>
 #include <cassert>
 #include <limits>
+#include <map>
 #include <optional>
+#include <set>
 #include <utility>
 
 #include "morphbake/diagnostics/problem.h"
@@ -32,6 +34,8 @@ using VertexIndex = Surface::Vertex_index;
 /// A centre this close to an edge or a vertex, in barycentric coordinates, lies on it: splitting
 /// off a thinner triangle would only add a needle.
 constexpr double kOnEdge = 1e-3;
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 Surface to_cgal(const Mesh& mesh) {
   Surface surface;
@@ -97,7 +101,7 @@ class SplitSurface {
   /// The part of a triangle in which a point lies.
   Face face_at(int triangle, const Eigen::Vector3d& position) const {
     Face best(static_cast<unsigned>(triangle));
-    double most = -std::numeric_limits<double>::infinity();
+    double most = -kInfinity;
     const auto consider = [&](Face face) {
       const double least = plane_coordinates(positions_of(corners_of(face)), position).minCoeff();
       if (least > most) best = face;
@@ -247,24 +251,6 @@ Eigen::VectorXd distances_of(HeatMethod& heat, Surface& surface,
   return (result.array() - zero / static_cast<double>(sources.size())).max(0);
 }
 
-/// Distances on a connected mesh from each set that is not empty; of the others without rows.
-std::vector<Eigen::VectorXd> heat_distances(const Mesh& mesh, const std::vector<PointSet>& sets) {
-  SplitSurface split(mesh);
-  std::vector<std::vector<VertexIndex>> sources(sets.size());
-  for (std::size_t i = 0; i < sets.size(); ++i) {
-    for (const SurfacePoint& at : sets[i]) sources[i].push_back(split.insert(at));
-  }
-  HeatMethod heat(split.surface());
-  std::vector<Eigen::VectorXd> distances(sets.size());
-  for (std::size_t i = 0; i < sets.size(); ++i) {
-    if (sets[i].empty()) continue;
-    heat.clear_sources();
-    for (const VertexIndex vertex : sources[i]) heat.add_source(vertex);
-    distances[i] = distances_of(heat, split.surface(), sources[i], mesh.positions.rows());
-  }
-  return distances;
-}
-
 /// The sets' points on one component, as points of its part.
 std::vector<PointSet> on_component(const Mesh& mesh, const Components& components, int label,
                                    const std::vector<PointSet>& sets) {
@@ -294,25 +280,85 @@ std::vector<PointSet> on_component(const Mesh& mesh, const Components& component
 
 }  // namespace
 
-std::vector<Eigen::VectorXd> geodesic_distances(const Mesh& mesh, const std::vector<PointSet>& sets,
-                                                const Location& where) {
-  const Components components =
-      connected_components(one_rings({static_cast<int>(mesh.positions.rows()), mesh.triangles}));
-  std::vector<Eigen::VectorXd> distances(
-      sets.size(),
-      Eigen::VectorXd::Constant(mesh.positions.rows(), std::numeric_limits<double>::infinity()));
-  for (int label = 0; label < components.count; ++label) {
-    const std::vector<PointSet> there = on_component(mesh, components, label, sets);
-    const auto is_empty = [](const PointSet& set) { return set.empty(); };
-    if (std::all_of(there.begin(), there.end(), is_empty)) continue;
-    const Part part = part_of_component(mesh, components, label);
-    if (has_needles(part.mesh)) fail_without_area(where);
-    const std::vector<Eigen::VectorXd> inside = heat_distances(part.mesh, there);
-    for (std::size_t i = 0; i < there.size(); ++i) {
-      if (there[i].empty()) continue;
-      if (!inside[i].allFinite()) fail_without_area(where);
-      distances[i](part.vertex_of_part) = inside[i];
+/// One component, whose points of all sets are vertices.
+struct GeodesicDistances::Component {
+  Component(Part of, const std::vector<PointSet>& sets) : part(std::move(of)), split(part.mesh) {
+    for (const PointSet& set : sets) {
+      auto& vertices = vertices_of_set.emplace_back();
+      for (const SurfacePoint& at : set) vertices.push_back(split.insert(at));
     }
+    heat.emplace(split.surface());
+  }
+
+  VertexIndex vertex_at(int vertex_of_whole) const {
+    const auto& all = part.vertex_of_part;  // rising
+    const auto found = std::lower_bound(all.begin(), all.end(), vertex_of_whole);
+    return VertexIndex(static_cast<unsigned>(found - all.begin()));
+  }
+
+  /// Puts the distances from some vertices of this component into those of the whole mesh.
+  /// @return whether they are finite
+  bool measure(const std::vector<VertexIndex>& from, Eigen::VectorXd& distances) {
+    heat->clear_sources();
+    for (const VertexIndex vertex : from) heat->add_source(vertex);
+    const Eigen::VectorXd inside =
+        distances_of(*heat, split.surface(), from, part.mesh.positions.rows());
+    distances(part.vertex_of_part) = inside;
+    return inside.allFinite();
+  }
+
+  Part part;
+  SplitSurface split;
+  std::vector<std::vector<VertexIndex>> vertices_of_set;
+  std::optional<HeatMethod> heat;
+};
+
+GeodesicDistances::GeodesicDistances(const Mesh& mesh, std::vector<PointSet> sets, Location where)
+    : mesh_(&mesh),
+      sets_(std::move(sets)),
+      where_(std::move(where)),
+      components_(connected_components(
+          one_rings({static_cast<int>(mesh.positions.rows()), mesh.triangles}))),
+      asked_(static_cast<std::size_t>(components_.count)) {}
+
+GeodesicDistances::~GeodesicDistances() = default;
+GeodesicDistances::GeodesicDistances(GeodesicDistances&&) noexcept = default;
+
+GeodesicDistances::Component& GeodesicDistances::component(int label) {
+  std::unique_ptr<Component>& asked = asked_[static_cast<std::size_t>(label)];
+  if (!asked) {
+    Part part = part_of_component(*mesh_, components_, label);
+    if (has_needles(part.mesh)) fail_without_area(where_);
+    asked = std::make_unique<Component>(std::move(part),
+                                        on_component(*mesh_, components_, label, sets_));
+  }
+  return *asked;
+}
+
+int GeodesicDistances::label_of(const SurfacePoint& at) const {
+  return components_.label[static_cast<std::size_t>(mesh_->triangles(at.triangle, 0))];
+}
+
+Eigen::VectorXd GeodesicDistances::from_set(std::size_t i) {
+  std::set<int> labels;
+  for (const SurfacePoint& at : sets_[i]) labels.insert(label_of(at));
+  Eigen::VectorXd distances = Eigen::VectorXd::Constant(mesh_->positions.rows(), kInfinity);
+  for (const int label : labels) {
+    Component& there = component(label);
+    if (!there.measure(there.vertices_of_set[i], distances)) fail_without_area(where_);
+  }
+  return distances;
+}
+
+Eigen::VectorXd GeodesicDistances::from_vertices(const std::vector<int>& vertices) {
+  std::map<int, std::vector<VertexIndex>> by_label;
+  for (const int vertex : vertices) {
+    const int label = components_.label[static_cast<std::size_t>(vertex)];
+    by_label[label].push_back(component(label).vertex_at(vertex));
+  }
+  Eigen::VectorXd distances = Eigen::VectorXd::Constant(mesh_->positions.rows(), kInfinity);
+  for (const auto& [label, from] : by_label) {
+    if (!component(label).measure(from, distances)) fail_without_area(where_);
   }
   return distances;
 }

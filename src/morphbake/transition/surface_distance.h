@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "morphbake/diagnostics/problem.h"
+#include "morphbake/mesh/adjacency.h"
 #include "morphbake/mesh/mesh.h"
 
 namespace morphbake {
@@ -23,19 +24,42 @@ Eigen::VectorXd edge_distances(const Mesh& mesh, const PointSet& from);
 /// @return  #V; infinity where no path leads
 Eigen::VectorXd hop_distances(const Mesh& mesh, const std::vector<int>& from);
 
-/// Geodesic distance over the surface from each of several sets of points, by the heat method on an
-/// intrinsic Delaunay triangulation.
+/// Geodesic distances over a surface, by the heat method on an intrinsic Delaunay triangulation.
 ///
-/// A point becomes a vertex of its own (its triangle or edge is split), never the nearest vertex.
-/// Error 1-4 % of the distance; it grows where triangles are large against it.
-/// @param sets   none is empty
-/// @param where  the place that a failure is told at
-/// @return  one a set: #V, scene units, 0 or more; infinity on components without a point of it
-/// @cost    one factorisation a component
+/// Error 1-4 % of the distance; it grows where triangles are large against it. Distances are #V, in
+/// scene units, 0 or more; infinity on components from which no point of theirs is asked.
+/// @cost    one factorisation a component, when it is first asked about
 /// @see     Crane, Weischedel and Wardetzky 2013; CGAL Heat_method_3
-/// @throws  BakeError "transition.distance-failed"
-std::vector<Eigen::VectorXd> geodesic_distances(const Mesh& mesh, const std::vector<PointSet>& sets,
-                                                const Location& where = {});
+class GeodesicDistances {
+ public:
+  /// @param mesh   must outlive this
+  /// @param sets   points from which distances will be asked: they become vertices of their own
+  ///               (their triangles or edges are split), never the nearest ones; no set is empty
+  /// @param where  the place that a failure is told at
+  explicit GeodesicDistances(const Mesh& mesh, std::vector<PointSet> sets = {},
+                             Location where = {});
+  ~GeodesicDistances();
+  GeodesicDistances(GeodesicDistances&&) noexcept;
+
+  /// From the nearest point of the i-th set.
+  /// @throws BakeError "transition.distance-failed"
+  Eigen::VectorXd from_set(std::size_t i);
+
+  /// From the nearest of several vertices.
+  /// @throws BakeError "transition.distance-failed"
+  Eigen::VectorXd from_vertices(const std::vector<int>& vertices);
+
+ private:
+  struct Component;
+  Component& component(int label);
+  int label_of(const SurfacePoint& at) const;
+
+  const Mesh* mesh_;
+  std::vector<PointSet> sets_;
+  Location where_;
+  Components components_;
+  std::vector<std::unique_ptr<Component>> asked_;  ///< one a component, none: not asked about yet
+};
 
 /// Distances from many vertices of one connected mesh, which is factorised once.
 ///

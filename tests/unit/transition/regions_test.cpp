@@ -183,7 +183,8 @@ TEST(RingsOfFewPoints, KeepToTheGeodesics) {
     return set;
   };
   const std::vector<Vector3d> inner = square(12), outer = square(20);
-  const Rings rings = find_rings(mesh, points(inner), points(outer), DistanceMeasure::Geodesic, {});
+  GeodesicDistances geodesics(mesh);
+  const Rings rings = find_rings(mesh, points(inner), points(outer), &geodesics, {});
   for (const int v : rings.inner) {
     EXPECT_LT(distance_from(inner, mesh.positions.row(v)), 2.5) << mesh.positions.row(v);
   }
