@@ -110,15 +110,23 @@ refused 2 '#/regions/r/mask/primitive: error: the mesh of "base" has no primitiv
 recipe bad '{"mask": {"on": "base", "material": "gold"}}'
 refused 2 'error: the file of "base" has no material "gold" [recipe.mask]'
 recipe bad '{"union": ["nose"]}' '{"sources": {"low": {"band": {"of": "base", "last": 10000000}}}}'
-refused 2 '#/sources/low/band: error: the band 0 to 10000000 of a mesh with'
+refused 2 '#/sources/low/band/last: error: the band 0 to 10000000 of a mesh with'
 handle='{"region": "nose", "translate": [0, 0, 0.1]}'
 recipe bad '{"ball": {"on": "base", "at": "nose", "inner": 0.2, "outer": 0.3}}' \
   "{\"sources\": {\"long\": {\"edit\": {\"of\": \"base\", \"region\": \"r\", \"handles\": [$handle, $handle]}}}}"
-refused 2 '#/sources/long/edit: error:'
+refused 2 '#/sources/long/edit/handles/1: error:'
 stderr_has '[derive.overlapping-handles]'
 recipe bad '{"ball": {"on": "base", "at": "nose", "inner": 0.2, "outer": 0.3}}' \
   '{"sources": {"flat": {"mirror": {"of": "base", "normal": [0, 0, 1]}}}}'
 refused 2 '[derive.not-symmetric]'
+# A normal is a direction, however long: the offset is a length.
+for normal in 1 10 1e-200; do
+  recipe "mirror$normal" '{"ball": {"on": "base", "at": "nose", "inner": 0.2, "outer": 0.3}}' \
+    "{\"sources\": {\"other\": {\"mirror\": {\"of\": \"base\", \"normal\": [$normal, 0, 0], \"offset\": 0.001}}},
+      \"outputs\": [{\"file\": \"other.glb\", \"still\": {\"at\": \"other\"}}]}"
+  run 0 bake "mirror$normal.json" -o "mirror$normal"
+  cmp -s mirror1/other.glb "mirror$normal/other.glb" || wrong "a normal of length $normal mirrors differently"
+done
 
 recipe bad '{"spatial": {"half_space": {"normal": {"keys": [{"time": 0, "value": [1, 0, 0]}, {"time": 1, "value": [-2, 0, 0]}]}}}}'
 refused 2 '#/regions/r/spatial/half_space/normal/keys/1/value: error: it is opposite to the key before'

@@ -158,13 +158,15 @@ std::string field_of(const DerivedSource& derived) {
   return kFields[derived.how.index()];
 }
 
-/// The same problems, at the source's place in the recipe where they have none.
+/// The same problems, in the recipe where they have no file: their pointers begin where the source
+/// is described.
 BakeError placed(const BakeError& error, const Derivation& from) {
   std::vector<Problem> problems = error.problems();
   for (Problem& problem : problems) {
     if (!problem.location.file.empty()) continue;
-    problem.location = location_in(
-        from.recipe, child_pointer("/sources", from.derived.name) + field_of(from.derived));
+    problem.location =
+        location_in(from.recipe, child_pointer("/sources", from.derived.name) +
+                                     field_of(from.derived) + problem.location.pointer);
   }
   return BakeError(std::move(problems));
 }

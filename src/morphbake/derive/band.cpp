@@ -22,10 +22,11 @@ constexpr int kPassesPerCheck = 16;
 
 void require_inside(const Band& band, Eigen::Index vertex_count) {
   if (band.first >= 0 && band.first <= band.last && band.last < vertex_count) return;
+  const bool is_first = band.first < 0 || band.first >= vertex_count || band.first > band.last;
   throw BakeError(Problem{
       Severity::Error,
       "derive.band-out-of-range",
-      {},
+      {"", is_first ? "/first" : "/last", 0, 0},
       fmt::format("the band {} to {} of a mesh with {} eigenvectors", band.first, band.last,
                   vertex_count),
       fmt::format("first may not be larger than last; both go from 0 to {}", vertex_count - 1)});

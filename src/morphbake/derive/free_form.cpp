@@ -24,13 +24,14 @@ std::vector<int> holders_of(const std::vector<bool>& fixed, const std::vector<Ha
   std::vector<int> holders;
   for (const bool is_fixed : fixed) holders.push_back(is_fixed ? kFixed : kFree);
   int shared_count = 0;
-  std::string first;
+  std::string first, pointer;
   for (std::size_t h = 0; h < handles.size(); ++h) {
     for (const int vertex : handles[h].vertices) {
       int& holder = holders.at(static_cast<std::size_t>(vertex));
       if (holder != kFree && shared_count++ == 0) {
         first = fmt::format("vertex {} belongs to {} and to handle {}", vertex,
                             name_of_holder(holder), h);
+        pointer = fmt::format("/handles/{}", h);
       }
       holder = static_cast<int>(h);
     }
@@ -40,7 +41,7 @@ std::vector<int> holders_of(const std::vector<bool>& fixed, const std::vector<Ha
       shared_count > 1 ? fmt::format("; so do {} other vertices", shared_count - 1) : "";
   throw BakeError(Problem{Severity::Error,
                           "derive.overlapping-handles",
-                          {},
+                          {"", pointer, 0, 0},
                           first + others,
                           "each vertex belongs to one handle, is fixed, or is free"});
 }

@@ -26,8 +26,8 @@ struct Handle {
 ///
 /// @param fixed  #V
 /// @return       #V by 3
-/// @throws BakeError "derive.overlapping-handles", "solve.not-finite", "solve.no-convergence",
-///         "linear.out-of-memory"; Cancelled
+/// @throws BakeError "derive.overlapping-handles" at /handles/N, "solve.not-finite",
+///         "solve.no-convergence", "linear.out-of-memory"; Cancelled
 /// @see    Alexa 2003, section 6, eq. 8
 Positions free_form(const Mesh& mesh, const std::vector<bool>& fixed,
                     const std::vector<Handle>& handles, const Observer& observer = {});

@@ -193,6 +193,28 @@ TEST(RingsOfFewPoints, KeepToTheGeodesics) {
   }
 }
 
+TEST(RingsAlongEdges, MayCrossVerticesAtOnePlace) {
+  // Three columns of the grid are folded into one: ways between them have no length.
+  Mesh mesh = test::grid(31, 31);
+  for (auto row : mesh.positions.rowwise()) {
+    if (row.x() == 14 || row.x() == 16) row.x() = 15;
+  }
+  const auto square = [&](double radius) {
+    PointSet set;
+    for (const double dx : {-radius, radius}) {
+      for (const double dy : {-radius, radius}) {
+        set.push_back(closest_point(mesh, {15 + dx, 15 + (dx < 0 ? dy : -dy), 0}));
+      }
+    }
+    return set;
+  };
+  const Rings rings = find_rings(mesh, square(5), square(10), nullptr, {});
+  EXPECT_TRUE(rings.is_inside[15 * 31 + 15]);
+  EXPECT_FALSE(rings.is_inside[15 * 31 + 7]);
+  EXPECT_FALSE(rings.is_outside[15 * 31 + 7]);
+  EXPECT_TRUE(rings.is_outside[0]);
+}
+
 TEST(Scattered, BendAsLittleAsTheyCanBetweenTheirPoints) {
   // A torus with 1 on its first ring and 0 on the one across. Values that depend on the ring r
   // alone bend least when their fourth differences vanish at every other ring: a cubic in r, which
