@@ -72,10 +72,10 @@ struct Counts {
 
 Counts count_iterations(const Scene& scene, const SurfaceSolver& solver) {
   Counts counts;
-  const auto change_at = [&](double time) { return scene.change_at(time); };
+  const auto goal_at = [&](double time) { return solver.system().goal(scene.change_at(time)); };
   const std::vector<double> first(scene.times.begin(), scene.times.begin() + kFramesCounted);
   const std::vector<SolveRecord> records =
-      solve_frames(solver, first, change_at, nobody, [](int, const Positions&) {});
+      solve_frames(solver, first, goal_at, nobody, [](int, const Positions&) {});
   // The first two frames have no neighbours yet.
   for (std::size_t f = 2; f < records.size(); ++f) {
     counts.warm += records[f].convergence.iterations / (kFramesCounted - 2.0);
@@ -215,12 +215,12 @@ void bench_frames(const std::string& group, const Scene& scene, const Displaceme
                   double tolerance, Figures& figures) {
   const SurfaceSolver direct(system, options_of(Solver::Direct, tolerance), nobody);
   const SurfaceSolver warm(system, options_of(Solver::Warm, tolerance), nobody);
-  const auto change_at = [&](double time) { return scene.change_at(time); };
+  const auto goal_at = [&](double time) { return system.goal(scene.change_at(time)); };
   int corrections = 0;
   const auto run = [&](const SurfaceSolver& solver) {
     corrections = 0;
     for (const SolveRecord& record :
-         solve_frames(solver, scene.times, change_at, nobody, [](int, const Positions&) {})) {
+         solve_frames(solver, scene.times, goal_at, nobody, [](int, const Positions&) {})) {
       corrections += record.convergence.iterations;
     }
   };

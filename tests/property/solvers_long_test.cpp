@@ -77,7 +77,7 @@ struct Sweep {
                                  std::vector<Positions>& frames) const {
     const Observer nobody;
     return solve_frames(
-        solver, times, [this](double time) { return change_at(time); }, nobody,
+        solver, times, [&](double time) { return solver.system().goal(change_at(time)); }, nobody,
         [&](int, const Positions& frame) { frames.push_back(frame); });
   }
 };

@@ -1,3 +1,4 @@
+
 #include "morphbake/recipe/reading.h"
 
 namespace morphbake {
@@ -45,11 +46,29 @@ void read_gauge(Reading& reading) {
   }
 }
 
+void read_representation(Reading& reading) {
+  const std::string name = reading.document.value("representation", "auto");
+  if (name == "laplacian") reading.recipe.representation = Representation::Laplacian;
+  if (name != "rotation") return;
+  reading.recipe.representation = Representation::Rotation;
+  if (has_shares_an_axis(reading.recipe)) {
+    complain(reading, "recipe.conflicting-fields", "/representation",
+             "axes that mix by themselves cannot be turned",
+             "give each source one share, or leave \"representation\" out");
+  }
+  if (reading.recipe.gauge.kind == Gauge::Kind::Anchor) {
+    complain(reading, "recipe.conflicting-fields", "/representation",
+             "an anchor shows what the paper's own differences do, which are not turned",
+             "take another gauge, or leave \"representation\" out");
+  }
+}
+
 }  // namespace
 
 void read_constraints(Reading& reading) {
   read_hold(reading);
   read_gauge(reading);
+  read_representation(reading);
 }
 
 }  // namespace morphbake

@@ -136,8 +136,8 @@ void solve_chunk(const SurfaceSolver& solver, Chunk& chunk,
 }  // namespace
 
 std::vector<SolveRecord> solve_frames(const SurfaceSolver& solver, const std::vector<double>& times,
-                                      const std::function<Eigen::MatrixXd(double)>& change_at,
-                                      const Observer& observer, const FrameConsumer& consumer) {
+                                      const GoalAt& goal_at, const Observer& observer,
+                                      const FrameConsumer& consumer) {
   const DisplacementSystem& system = solver.system();
   const std::size_t length = chunk_length(system);
   std::vector<SolveRecord> records;
@@ -145,11 +145,15 @@ std::vector<SolveRecord> solve_frames(const SurfaceSolver& solver, const std::ve
   for (std::size_t first = 0; first < times.size(); first += length) {
     advance(observer, {"solve", static_cast<int>(first), static_cast<int>(times.size())});
     Chunk chunk;
-    for (std::size_t f = first; f < std::min(times.size(), first + length); ++f) {
-      chunk.goals.push_back(system.goal(change_at(times[f])));
-      chunk.x.push_back(system.start(chunk.goals.back()));
-    }
-    chunk.reached.resize(chunk.x.size());
+    const std::size_t frames = std::min(length, times.size() - first);
+    chunk.goals.resize(frames);
+    chunk.x.resize(frames);
+    chunk.reached.resize(frames);
+    tbb::parallel_for(std::size_t{0}, frames, [&](std::size_t i) {
+      stop_if_cancelled(observer);
+      chunk.goals[i] = goal_at(times[first + i]);
+      chunk.x[i] = system.start(chunk.goals[i]);
+    });
     solve_chunk(solver, chunk, before);
     for (std::size_t i = 0; i < chunk.x.size(); ++i) {
       consumer(static_cast<int>(first + i), system.displacement(chunk.goals[i], chunk.x[i]));

@@ -56,7 +56,7 @@ Solved solve(const Sweep& sweep, const DisplacementSystem& system, Solver method
   const SurfaceSolver solver(system, options, nobody);
   Solved solved;
   solved.records = solve_frames(
-      solver, sweep.times, [&](double time) { return sweep.change_at(time); }, nobody,
+      solver, sweep.times, [&](double time) { return system.goal(sweep.change_at(time)); }, nobody,
       [&](int frame, const Positions& positions) {
         EXPECT_EQ(frame, static_cast<int>(solved.frames.size()));
         solved.frames.push_back(positions);
@@ -118,7 +118,8 @@ TEST(SolvedFrames, AreKeptAndReadInAnyOrder) {
   const Positions& rest = sweep.mesh.geometries[0];
   const FrameSource source =
       solved_frames(
-          solver, rest, sweep.times, [&](double time) { return sweep.change_at(time); }, nobody)
+          solver, rest, sweep.times,
+          [&](double time) { return system.goal(sweep.change_at(time)); }, nobody)
           .source;
   const std::vector<Positions> frames = solve(sweep, system, Solver::Direct).frames;
   for (const std::size_t f : {std::size_t{90}, std::size_t{0}, std::size_t{41}}) {
