@@ -45,6 +45,13 @@ struct Scene {
     return change;
   }
 
+  std::vector<Goal> goals_at(const DisplacementSystem& system,
+                             std::span<const double> moments) const {
+    std::vector<Goal> goals;
+    for (const double time : moments) goals.push_back(system.goal(change_at(time)));
+    return goals;
+  }
+
   DisplacementSystem system(HoldRule rule) const {
     const SeparableTimeline middle{Shares(0, 1), {{"", change_at(0.5), {}}}};
     return {mesh,
@@ -72,10 +79,12 @@ struct Counts {
 
 Counts count_iterations(const Scene& scene, const SurfaceSolver& solver) {
   Counts counts;
-  const auto goal_at = [&](double time) { return solver.system().goal(scene.change_at(time)); };
+  const auto goals_at = [&](std::span<const double> times) {
+    return scene.goals_at(solver.system(), times);
+  };
   const std::vector<double> first(scene.times.begin(), scene.times.begin() + kFramesCounted);
   const std::vector<SolveRecord> records =
-      solve_frames(solver, first, goal_at, nobody, [](int, const Positions&) {});
+      solve_frames(solver, first, goals_at, nobody, [](int, const Positions&) {});
   // The first two frames have no neighbours yet.
   for (std::size_t f = 2; f < records.size(); ++f) {
     counts.warm += records[f].convergence.iterations / (kFramesCounted - 2.0);
@@ -215,12 +224,14 @@ void bench_frames(const std::string& group, const Scene& scene, const Displaceme
                   double tolerance, Figures& figures) {
   const SurfaceSolver direct(system, options_of(Solver::Direct, tolerance), nobody);
   const SurfaceSolver warm(system, options_of(Solver::Warm, tolerance), nobody);
-  const auto goal_at = [&](double time) { return system.goal(scene.change_at(time)); };
+  const auto goals_at = [&](std::span<const double> times) {
+    return scene.goals_at(system, times);
+  };
   int corrections = 0;
   const auto run = [&](const SurfaceSolver& solver) {
     corrections = 0;
     for (const SolveRecord& record :
-         solve_frames(solver, scene.times, goal_at, nobody, [](int, const Positions&) {})) {
+         solve_frames(solver, scene.times, goals_at, nobody, [](int, const Positions&) {})) {
       corrections += record.convergence.iterations;
     }
   };

@@ -138,12 +138,12 @@ TEST(Rotation, EveryVertexIsAtRestBetweenItsNeighbours) {
   const MorphableMesh mesh = bars(120, 270);
   const Shapes shapes(mesh);
   const RotationBlend& blend = *shapes.states().rotations;
-  Eigen::MatrixXd T(2, mesh.connectivity.vertex_count);
+  TransitionState T(2, mesh.connectivity.vertex_count);
   for (Eigen::Index v = 0; v < T.cols(); ++v) {
     const double share = std::clamp(mesh.geometries[0](v, 1) + 0.2, 0.0, 1.0);
     T.col(v) << 1 - share, share;
   }
-  const RotationField R = blend.rotations(T);
+  const RotationField R = blend.rotations({&T, 1}).front();
   const Deformation& bent = shapes.deformations().against_first[0];
   const std::vector<Edge>& edges = shapes.deformations().edges;
   Positions sums = Positions::Zero(T.cols(), 3);

@@ -227,9 +227,12 @@ void check_still_regions(const Recipe& recipe, const RegionFields& regions) {
   if (!problems.empty()) throw BakeError(std::move(problems));
 }
 
-/// Whether frames are solved even where the timeline is made of shapes.
-bool solves_frames(Representation representation, const SolveOptions& options) {
-  return options.every_frame || representation == Representation::Rotation;
+/// The options, with every frame solved where there is no other way.
+SolveOptions options_for(Representation representation, const TimelineChanges& changes,
+                         SolveOptions options) {
+  options.every_frame =
+      options.every_frame || !changes.separable || representation == Representation::Rotation;
+  return options;
 }
 
 /// The timeline as shapes, where it is made of them, once all is checked.
@@ -355,7 +358,8 @@ void check_timeline(const Recipe& recipe, const MorphableMesh& mesh, const Regio
   const TimelineChanges changes =
       changes_of(recipe, regions, count,
                  shapes_of(recipe, regions, count, representation, options, observer), observer);
-  choose_solver(*make_system(recipe, mesh, regions, changes, options), options);
+  choose_solver(*make_system(recipe, mesh, regions, changes, options),
+                options_for(representation, changes, options));
 }
 
 std::unique_ptr<SolvedTimeline> solve_timeline(const Recipe& recipe, const MorphableMesh& mesh,
@@ -372,20 +376,25 @@ std::unique_ptr<SolvedTimeline> solve_timeline(const Recipe& recipe, const Morph
   solved->states = std::make_unique<StateSystem>(
       make_states(mesh, changes.reference, solved->representation,
                   make_system(recipe, mesh, regions, changes, options), options, observer));
+  const SolveOptions solving = options_for(representation, changes, options);
   const StateSystem& states = *solved->states;
   solved->separable = std::move(changes.separable);
-  solved->solver = std::make_unique<SurfaceSolver>(*states.displacements, options, observer);
+  solved->solver = std::make_unique<SurfaceSolver>(*states.displacements, solving, observer);
   std::vector<SolveRecord> records;
-  if (solved->separable && !solves_frames(representation, options)) {
+  if (!solving.every_frame) {
     solved->shapes = solve_fields(*solved->solver, mesh, *solved->separable, observer);
     solved->frames = combined_frames(solved->shapes, *solved->separable, recipe.timeline);
     records = solved->shapes.records;
   } else {
-    const auto goal_at = [&](double time) {
-      return states.goal(transition_at(recipe, regions, count, time));
+    const auto goals_at = [&](std::span<const double> times) {
+      std::vector<TransitionState> moments;
+      for (const double time : times) {
+        moments.push_back(transition_at(recipe, regions, count, time));
+      }
+      return states.goals(moments);
     };
     SolvedFrames frames = solved_frames(*solved->solver, states.rest, frame_times(recipe.timeline),
-                                        goal_at, observer);
+                                        goals_at, observer);
     solved->frames = std::move(frames.source);
     records = std::move(frames.records);
   }

@@ -1,7 +1,9 @@
 #include "morphbake/solve/rotation_blend.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
+#include <numeric>
 #include <utility>
 
 #include "morphbake/differential/rotation_vector.h"
@@ -44,7 +46,8 @@ RotationBlend::RotationBlend(const MorphableMesh& mesh,
   if (holds) {
     // What is held is turned as it would be if all were: by the reference, with nothing held.
     factorise();
-    reference_ = rotations(reference.replicate(1, mesh.connectivity.vertex_count));
+    const TransitionState all = reference.replicate(1, mesh.connectivity.vertex_count);
+    reference_ = rotations({&all, 1}).front();
     held_ = constraints.held;
     for (std::size_t v = 0; v < held_.size(); ++v) {
       if (held_[v]) root_[static_cast<std::size_t>(components_.label[v])] = -1;
@@ -156,24 +159,24 @@ void RotationBlend::factorise() {
   }
   equations_.matrix.resize(count, count);
   equations_.matrix.setFromTriplets(entries.begin(), entries.end());
-  factor_.emplace(equations_);
+  factor_.emplace(equations_, Precision::Single);
 }
 
-std::vector<Eigen::Vector3d> RotationBlend::blended_turns(const Eigen::MatrixXd& T) const {
-  std::vector<Eigen::Vector3d> turns(edges_.size(), Eigen::Vector3d::Zero());
+/// sum_s T_s l_s along an edge.
+Eigen::Vector3d RotationBlend::turn_of(const TransitionState& T, std::size_t edge) const {
+  Eigen::Vector3d turn = Eigen::Vector3d::Zero();
   for (std::size_t s = 0; s < deformations_.size(); ++s) {
     const auto row = static_cast<Eigen::Index>(s + 1);
-    for (std::size_t e = 0; e < edges_.size(); ++e) {
-      const double share = (T(row, edges_[e].a) + T(row, edges_[e].b)) / 2;
-      turns[e] += share * deformations_[s].turns[e];
-    }
+    const double share = (T(row, edges_[edge].a) + T(row, edges_[edge].b)) / 2;
+    turn += share * deformations_[s].turns[edge];
   }
-  return turns;
+  return turn;
 }
 
-/// Sets what is held and the roots, which are turned by the mean shares where their component's
-/// place is measured.
-void RotationBlend::set_known(const Eigen::MatrixXd& T, RotationField& rotations) const {
+/// What is held, and the roots, which are turned by the mean shares where their component's place
+/// is measured; all others by the turns along the tree.
+RotationField RotationBlend::first_guess(const TransitionState& T) const {
+  RotationField rotations(held_.size(), Eigen::Quaterniond::Identity());
   Eigen::MatrixXd means = Eigen::MatrixXd::Zero(T.rows(), components_.count);
   for (Eigen::Index v = 0; v < T.cols(); ++v) {
     const auto vertex = static_cast<std::size_t>(v);
@@ -190,65 +193,86 @@ void RotationBlend::set_known(const Eigen::MatrixXd& T, RotationField& rotations
     }
     rotations[root] = rotation_of(turn);
   }
-}
-
-void RotationBlend::turn_along_tree(const std::vector<Eigen::Vector3d>& turns,
-                                    RotationField& rotations) const {
   for (const Step& step : tree_) {
     const auto e = static_cast<std::size_t>(step.edge);
     const int from = step.forward ? edges_[e].a : edges_[e].b;
-    const Eigen::Vector3d turn = step.forward ? turns[e] : (-turns[e]).eval();
+    const Eigen::Vector3d turn = turn_of(T, e);
     rotations[static_cast<std::size_t>(step.vertex)] =
-        rotations[static_cast<std::size_t>(from)] * rotation_of(turn);
+        rotations[static_cast<std::size_t>(from)] * rotation_of(step.forward ? turn : -turn);
   }
+  return rotations;
 }
 
-/// One Gauss-Newton step: K_L phi = -sum_b log(R_a exp(l) R_b^T), R <- exp(phi) R.
-///
-/// @return  the largest phi: radians
-double RotationBlend::improve(const std::vector<Eigen::Vector3d>& turns,
-                              RotationField& rotations) const {
+/// Right-hand side of a Gauss-Newton step: -sum_b log(R_a exp(l) R_b^T), unknowns by 3.
+Eigen::MatrixXd RotationBlend::misfits(const TransitionState& T,
+                                       const RotationField& rotations) const {
   Eigen::MatrixXd b = Eigen::MatrixXd::Zero(equations_.matrix.rows(), 3);
   for (std::size_t e = 0; e < edges_.size(); ++e) {
     const auto from = static_cast<std::size_t>(edges_[e].a);
     const auto to = static_cast<std::size_t>(edges_[e].b);
     const Eigen::RowVector3d misfit =
-        rotation_vector(rotations[from] * rotation_of(turns[e]) * rotations[to].conjugate());
+        rotation_vector(rotations[from] * rotation_of(turn_of(T, e)) * rotations[to].conjugate());
     if (unknown_[from] >= 0) b.row(unknown_[from]) -= misfit;
     if (unknown_[to] >= 0) b.row(unknown_[to]) += misfit;
   }
-  Eigen::MatrixXd phi = factor_->solve(b);
-  remove_block_means(equations_, phi);
-  for (std::size_t v = 0; v < rotations.size(); ++v) {
-    if (unknown_[v] < 0) continue;
-    rotations[v] = (rotation_of(phi.row(unknown_[v])) * rotations[v]).normalized();
-  }
-  return phi.rows() == 0 ? 0 : phi.rowwise().norm().maxCoeff();
+  return b;
 }
 
-RotationField RotationBlend::rotations(const Eigen::MatrixXd& T) const {
-  RotationField rotations(held_.size(), Eigen::Quaterniond::Identity());
-  set_known(T, rotations);
-  const RotationField known = rotations;
-  const std::vector<Eigen::Vector3d> turns = blended_turns(T);
-  turn_along_tree(turns, rotations);
-  for (int step = 0; step < kMostSteps && improve(turns, rotations) > kSettled; ++step) {
+/// R <- exp(phi) R
+///
+/// @return  the largest phi: radians
+double RotationBlend::turn_by(const Eigen::MatrixXd& phi, RotationField& rotations) const {
+  double largest = 0;
+  for (std::size_t v = 0; v < rotations.size(); ++v) {
+    if (unknown_[v] < 0) continue;
+    const Eigen::Vector3d turn = phi.row(unknown_[v]);
+    rotations[v] = (rotation_of(turn) * rotations[v]).normalized();
+    largest = std::max(largest, turn.squaredNorm());
   }
-  // A step leaves each free component's rotation as a whole open: its root is what was set.
+  return std::sqrt(largest);
+}
+
+/// Steps leave each free component's rotation as a whole open: its root keeps what it was given.
+void RotationBlend::turn_back(const RotationField& guess, RotationField& rotations) const {
   RotationField back(root_.size(), Eigen::Quaterniond::Identity());
   for (std::size_t c = 0; c < root_.size(); ++c) {
     if (root_[c] < 0) continue;
     const auto root = static_cast<std::size_t>(root_[c]);
-    back[c] = known[root] * rotations[root].conjugate();
+    back[c] = guess[root] * rotations[root].conjugate();
   }
   for (std::size_t v = 0; v < rotations.size(); ++v) {
     const auto component = static_cast<std::size_t>(components_.label[v]);
     if (root_[component] >= 0) rotations[v] = back[component] * rotations[v];
   }
-  return rotations;
 }
 
-Positions RotationBlend::differences(const Eigen::MatrixXd& T,
+std::vector<RotationField> RotationBlend::rotations(std::span<const TransitionState> states) const {
+  std::vector<RotationField> guesses;
+  for (const TransitionState& T : states) guesses.push_back(first_guess(T));
+  std::vector<RotationField> fields = guesses;
+  std::vector<std::size_t> moving(states.size());
+  std::iota(moving.begin(), moving.end(), std::size_t{0});
+  if (equations_.matrix.rows() == 0) moving.clear();
+  for (int step = 0; step < kMostSteps && !moving.empty(); ++step) {
+    Eigen::MatrixXd b(equations_.matrix.rows(), 3 * static_cast<Eigen::Index>(moving.size()));
+    for (std::size_t i = 0; i < moving.size(); ++i) {
+      b.middleCols(3 * static_cast<Eigen::Index>(i), 3) =
+          misfits(states[moving[i]], fields[moving[i]]);
+    }
+    Eigen::MatrixXd phi = factor_->solve(b);
+    remove_block_means(equations_, phi);
+    std::vector<std::size_t> still_moving;
+    for (std::size_t i = 0; i < moving.size(); ++i) {
+      const auto columns = phi.middleCols(3 * static_cast<Eigen::Index>(i), 3);
+      if (turn_by(columns, fields[moving[i]]) > kSettled) still_moving.push_back(moving[i]);
+    }
+    moving = std::move(still_moving);
+  }
+  for (std::size_t i = 0; i < fields.size(); ++i) turn_back(guesses[i], fields[i]);
+  return fields;
+}
+
+Positions RotationBlend::differences(const TransitionState& T,
                                      const RotationField& rotations) const {
   const Positions& first = mesh_.geometries.front();
   std::vector<Eigen::Matrix3d> R, M;
@@ -279,32 +303,61 @@ Positions RotationBlend::differences(const Eigen::MatrixXd& T,
   return b;
 }
 
-Goal goal_of_rotations(const DisplacementSystem& system, const RotationBlend& blend,
-                       const MorphableMesh& mesh, const Eigen::MatrixXd& T,
-                       const Positions& reference) {
+namespace {
+
+/// The sources mixed vertex by vertex; what is held as it stands.
+Positions mixed_vertices(const DisplacementSystem& system, const MorphableMesh& mesh,
+                         const TransitionState& T, const Positions& reference) {
   Positions mixed = Positions::Zero(reference.rows(), 3);
   for (std::size_t s = 0; s < mesh.geometries.size(); ++s) {
     mixed += T.row(static_cast<Eigen::Index>(s)).asDiagonal() * mesh.geometries[s];
   }
-  const Components& components = system.components();
+  for (Eigen::Index v = 0; v < mixed.rows(); ++v) {
+    if (system.constraints().held[static_cast<std::size_t>(v)]) mixed.row(v) = reference.row(v);
+  }
+  return mixed;
+}
+
+/// One a component: whether all its vertices are one source.
+std::vector<bool> are_sources(const Components& components, const TransitionState& T) {
   std::vector<bool> is_source(static_cast<std::size_t>(components.count), true);
   std::vector<Eigen::Index> first(is_source.size(), -1);
   for (Eigen::Index v = 0; v < T.cols(); ++v) {
-    const auto vertex = static_cast<std::size_t>(v);
-    const auto component = static_cast<std::size_t>(components.label[vertex]);
+    const auto component = static_cast<std::size_t>(components.label[static_cast<std::size_t>(v)]);
     if (first[component] < 0) first[component] = v;
-    if (T.col(v) != T.col(first[component]) || (T.col(v).array() == 1).count() != 1 ||
-        (T.col(v).array() == 0).count() + 1 != T.rows()) {
-      is_source[component] = false;
+    const bool is_one =
+        (T.col(v).array() == 1).count() == 1 && (T.col(v).array() == 0).count() + 1 == T.rows();
+    if (!is_one || T.col(v) != T.col(first[component])) is_source[component] = false;
+  }
+  return is_source;
+}
+
+}  // namespace
+
+std::vector<Goal> goals_of_rotations(const DisplacementSystem& system, const RotationBlend& blend,
+                                     const MorphableMesh& mesh,
+                                     std::span<const TransitionState> states,
+                                     const Positions& reference) {
+  std::vector<std::vector<bool>> known;
+  std::vector<TransitionState> unknown;
+  for (const TransitionState& T : states) {
+    known.push_back(are_sources(system.components(), T));
+    const std::vector<bool>& is_source = known.back();
+    if (std::find(is_source.begin(), is_source.end(), false) != is_source.end()) {
+      unknown.push_back(T);
     }
-    if (system.constraints().held[vertex]) mixed.row(v) = reference.row(v);
   }
-  if (std::find(is_source.begin(), is_source.end(), false) == is_source.end()) {
-    return system.goal_of_shape(Positions::Zero(T.cols(), 3), mixed, std::move(is_source),
-                                reference);
+  const std::vector<RotationField> rotations = blend.rotations(unknown);
+  std::vector<Goal> goals;
+  std::size_t next = 0;
+  for (std::size_t i = 0; i < states.size(); ++i) {
+    const Positions mixed = mixed_vertices(system, mesh, states[i], reference);
+    const bool is_solved = std::find(known[i].begin(), known[i].end(), false) != known[i].end();
+    const Positions b = is_solved ? blend.differences(states[i], rotations[next++])
+                                  : Positions::Zero(reference.rows(), 3);
+    goals.push_back(system.goal_of_shape(b, mixed, std::move(known[i]), reference));
   }
-  const Positions b = blend.differences(T, blend.rotations(T));
-  return system.goal_of_shape(b, mixed, std::move(is_source), reference);
+  return goals;
 }
 
 }  // namespace morphbake

@@ -2,12 +2,14 @@
 
 #include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "morphbake/connectivity/morphable_mesh.h"
 #include "morphbake/differential/deformation.h"
 #include "morphbake/linear/cholesky_factor.h"
 #include "morphbake/solve/displacement_system.h"
+#include "morphbake/transition/timeline.h"
 
 namespace morphbake {
 
@@ -36,12 +38,12 @@ class RotationBlend {
   RotationBlend(const MorphableMesh& mesh, std::shared_ptr<const SourceDeformations> deformations,
                 const Constraints& constraints, const Eigen::VectorXd& reference);
 
-  /// The rotations of a transition state: least squares of log(R_a exp(sum_s T_s l_s) R_b^T).
+  /// The rotations of transition states: least squares of log(R_a exp(sum_s T_s l_s) R_b^T).
   ///
   /// What is held is turned as the reference, and components that hold nothing as their sources'
   /// mix at one vertex in their midst. May be called from several threads.
-  /// @param T  #sources by #V
-  RotationField rotations(const Eigen::MatrixXd& T) const;
+  /// @param states  #sources by #V each; they share the passes over the factor
+  std::vector<RotationField> rotations(std::span<const TransitionState> states) const;
 
   /// b of K_L V = b: sums to 0 over each component.
   ///
@@ -50,7 +52,7 @@ class RotationBlend {
   /// with S = sum_s T_s S_s, the edge e of the first source, and r = sum_s T_s r_s, the sources'
   /// remainders along it. It is exact where T is one source.
   /// @return #V by 3
-  Positions differences(const Eigen::MatrixXd& T, const RotationField& rotations) const;
+  Positions differences(const TransitionState& T, const RotationField& rotations) const;
 
  private:
   struct Step {
@@ -63,10 +65,11 @@ class RotationBlend {
   void plan_tree();
   void factorise();
   Positions unrolled(const Deformation& deformation) const;
-  std::vector<Eigen::Vector3d> blended_turns(const Eigen::MatrixXd& T) const;
-  void set_known(const Eigen::MatrixXd& T, RotationField& rotations) const;
-  void turn_along_tree(const std::vector<Eigen::Vector3d>& turns, RotationField& rotations) const;
-  double improve(const std::vector<Eigen::Vector3d>& turns, RotationField& rotations) const;
+  Eigen::Vector3d turn_of(const TransitionState& T, std::size_t edge) const;
+  RotationField first_guess(const TransitionState& T) const;
+  Eigen::MatrixXd misfits(const TransitionState& T, const RotationField& rotations) const;
+  double turn_by(const Eigen::MatrixXd& phi, RotationField& rotations) const;
+  void turn_back(const RotationField& guess, RotationField& rotations) const;
 
   const MorphableMesh& mesh_;
   OneRings rings_;
@@ -84,13 +87,15 @@ class RotationBlend {
   std::optional<CholeskyFactor> factor_;
 };
 
-/// What a transition state asks of the surface when its rotations are blended.
+/// What transition states ask of the surface when rotations are blended.
 ///
 /// Components in which all vertices are one source take it as it is.
-/// @param T          #sources by #V
-/// @param reference  #V by 3: what displacements start from, and where what is held stands
-Goal goal_of_rotations(const DisplacementSystem& system, const RotationBlend& blend,
-                       const MorphableMesh& mesh, const Eigen::MatrixXd& T,
-                       const Positions& reference);
+/// @param states     #sources by #V each
+/// @param reference  #V by 3: where displacements start, and what is held stands
+/// @throws BakeError "solve.not-finite"
+std::vector<Goal> goals_of_rotations(const DisplacementSystem& system, const RotationBlend& blend,
+                                     const MorphableMesh& mesh,
+                                     std::span<const TransitionState> states,
+                                     const Positions& reference);
 
 }  // namespace morphbake

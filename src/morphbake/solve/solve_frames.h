@@ -1,14 +1,15 @@
 #pragma once
 
 #include <functional>
+#include <span>
 #include <vector>
 
 #include "morphbake/solve/solve_fields.h"
 
 namespace morphbake {
 
-/// What a moment asks of the surface; called from several threads.
-using GoalAt = std::function<Goal(double time)>;
+/// What some moments ask of the surface; called from several threads.
+using GoalsAt = std::function<std::vector<Goal>(std::span<const double> times)>;
 
 /// Takes frames in the order of time.
 using FrameConsumer = std::function<void(int frame, const Positions& displacement)>;
@@ -24,7 +25,7 @@ using FrameConsumer = std::function<void(int frame, const Positions& displacemen
 /// threads.
 /// @return           one record a frame that needed a solve
 std::vector<SolveRecord> solve_frames(const SurfaceSolver& solver, const std::vector<double>& times,
-                                      const GoalAt& goal_at, const Observer& observer,
+                                      const GoalsAt& goals_at, const Observer& observer,
                                       const FrameConsumer& consumer);
 
 }  // namespace morphbake

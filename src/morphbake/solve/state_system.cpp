@@ -6,9 +6,12 @@
 
 namespace morphbake {
 
-Goal StateSystem::goal(const TransitionState& T) const {
-  if (rotations) return goal_of_rotations(*displacements, *rotations, mesh, T, rest);
-  return displacements->goal(T - uniform_transition(reference, mesh.connectivity.vertex_count));
+std::vector<Goal> StateSystem::goals(std::span<const TransitionState> states) const {
+  if (rotations) return goals_of_rotations(*displacements, *rotations, mesh, states, rest);
+  const TransitionState start = uniform_transition(reference, mesh.connectivity.vertex_count);
+  std::vector<Goal> goals;
+  for (const TransitionState& T : states) goals.push_back(displacements->goal(T - start));
+  return goals;
 }
 
 StateSystem laplacian_states(const MorphableMesh& mesh, const Shares& reference,
@@ -31,7 +34,7 @@ StateSystem rotation_states(const MorphableMesh& mesh,
   const RotationBlend blend(mesh, deformations, free, reference.col(0));
   const DisplacementSystem system(mesh, std::move(free), options.right_hand_side);
   const TransitionState T = uniform_transition(reference, mesh.connectivity.vertex_count);
-  Goal goal = goal_of_rotations(system, blend, mesh, T, states.rest);
+  Goal goal = goals_of_rotations(system, blend, mesh, {&T, 1}, states.rest).front();
   if (goal.is_blend()) return states;
   const SurfaceSolver solver(system, options, observer);
   std::vector<SolveRecord> records;

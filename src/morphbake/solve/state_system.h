@@ -1,6 +1,8 @@
 #pragma once
 
 #include <memory>
+#include <span>
+#include <vector>
 
 #include "morphbake/diagnostics/observer.h"
 #include "morphbake/solve/displacement_system.h"
@@ -20,7 +22,9 @@ struct StateSystem {
   /// May be called from several threads.
   ///
   /// @throws BakeError "solve.not-finite"
-  Goal goal(const TransitionState& T) const;
+  std::vector<Goal> goals(std::span<const TransitionState> states) const;
+
+  Goal goal(const TransitionState& T) const { return goals({&T, 1}).front(); }
 };
 
 /// States whose differences are blended as they are, without rotations.
