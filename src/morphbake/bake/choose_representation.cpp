@@ -131,7 +131,10 @@ RepresentationChoice choose_representation(const Recipe& recipe, const Morphable
   RepresentationChoice choice;
   choice.representation = recipe.representation;
   choice.reason = "as the recipe says";
-  if (recipe.representation == Representation::Laplacian) return choice;
+  if (recipe.representation != Representation::Auto &&
+      recipe.representation != Representation::Rotation) {
+    return choice;
+  }
   if (recipe.representation == Representation::Auto) {
     choice.representation = Representation::Laplacian;
     choice.reason = what_needs_differences(recipe);

@@ -182,10 +182,19 @@ StateSystem make_states(const MorphableMesh& mesh, const Shares& reference,
                         const RepresentationChoice& choice,
                         std::unique_ptr<DisplacementSystem> system, const SolveOptions& options,
                         const Observer& observer) {
-  return choice.representation == Representation::Rotation
-             ? rotation_states(mesh, choice.deformations, reference, std::move(system), options,
-                               observer)
-             : laplacian_states(mesh, reference, std::move(system));
+  switch (choice.representation) {
+    case Representation::Rotation:
+      return rotation_states(mesh, choice.deformations, reference, std::move(system), options,
+                             observer);
+    case Representation::Affine:
+      return affine_states(mesh, reference, std::move(system));
+    case Representation::Absolute:
+      return absolute_states(mesh, reference, std::move(system));
+    case Representation::Rigid:
+      return rigid_states(mesh, reference, std::move(system));
+    default:
+      return laplacian_states(mesh, reference, std::move(system));
+  }
 }
 
 /// Refuses targets that are shapes, for a reason: without shapes there are only frames.
@@ -247,8 +256,9 @@ std::optional<SeparableTimeline> shapes_of(const Recipe& recipe, const RegionFie
     refuse_tracks(recipe, "here a region moves or floods, so every frame is another");
     return std::nullopt;
   }
-  if (representation == Representation::Rotation) {
-    refuse_tracks(recipe, "what is turned on its way is another shape in every frame");
+  if (representation != Representation::Laplacian) {
+    refuse_tracks(recipe, fmt::format("the representation \"{}\" solves every frame",
+                                      name_of(representation)));
   }
   std::optional<SeparableTimeline> separable = separate_timeline(recipe, regions, count);
   if (separable) return separable;

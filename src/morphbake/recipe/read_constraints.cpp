@@ -48,17 +48,20 @@ void read_gauge(Reading& reading) {
 
 void read_representation(Reading& reading) {
   const std::string name = reading.document.value("representation", "auto");
-  if (name == "laplacian") reading.recipe.representation = Representation::Laplacian;
-  if (name != "rotation") return;
-  reading.recipe.representation = Representation::Rotation;
-  if (has_shares_an_axis(reading.recipe)) {
+  Recipe& recipe = reading.recipe;
+  recipe.representation = representation_named(name);
+  if (recipe.representation == Representation::Auto ||
+      recipe.representation == Representation::Laplacian) {
+    return;
+  }
+  if (has_shares_an_axis(recipe)) {
     complain(reading, "recipe.conflicting-fields", "/representation",
-             "axes that mix by themselves cannot be turned",
+             "axes mix by themselves in the representation \"laplacian\" only",
              "give each source one share, or leave \"representation\" out");
   }
-  if (reading.recipe.gauge.kind == Gauge::Kind::Anchor) {
+  if (recipe.gauge.kind == Gauge::Kind::Anchor) {
     complain(reading, "recipe.conflicting-fields", "/representation",
-             "an anchor shows what the paper's own differences do, which are not turned",
+             "an anchor shows what the paper's own differences do: those of \"laplacian\"",
              "take another gauge, or leave \"representation\" out");
   }
 }

@@ -1,6 +1,8 @@
 #include "morphbake/recipe/recipe.h"
 
 #include <algorithm>
+#include <array>
+#include <cassert>
 #include <utility>
 
 namespace morphbake {
@@ -22,16 +24,22 @@ const std::filesystem::path& written_in(const std::vector<RecipePart>& parts,
   return best->file;
 }
 
+namespace {
+
+/// In the order of Representation.
+constexpr std::array kRepresentations = {"auto",   "laplacian", "rotation",
+                                         "affine", "absolute",  "rigid"};
+
+}  // namespace
+
 std::string name_of(Representation representation) {
-  switch (representation) {
-    case Representation::Auto:
-      return "auto";
-    case Representation::Laplacian:
-      return "laplacian";
-    case Representation::Rotation:
-      break;
-  }
-  return "rotation";
+  return kRepresentations[static_cast<std::size_t>(representation)];
+}
+
+Representation representation_named(const std::string& name) {
+  const auto found = std::find(kRepresentations.begin(), kRepresentations.end(), name);
+  assert(found != kRepresentations.end());
+  return static_cast<Representation>(found - kRepresentations.begin());
 }
 
 bool has_shares_an_axis(const Recipe& recipe) {

@@ -58,6 +58,9 @@ enum class Representation {
   Auto,       ///< Rotation where the shapes are turned against one another, else Laplacian
   Laplacian,  ///< differences along edges (Alexa 2003, section 4.1)
   Rotation,   ///< differences that are turned along: for sources that are bent or twisted
+  Affine,     ///< weights of neighbours (section 4.2)
+  Absolute,   ///< positions
+  Rigid,      ///< positions, once motions have brought the sources together
 };
 
 /// How lengths in a recipe are meant.
@@ -218,8 +221,11 @@ struct Recipe {
 const std::filesystem::path& written_in(const std::vector<RecipePart>& parts,
                                         std::string_view pointer);
 
-/// As recipes write it: "auto", "laplacian", "rotation".
+/// As recipes write it: "auto", "laplacian", "rotation", "affine", "absolute", "rigid".
 std::string name_of(Representation representation);
+
+/// @param name  one of those
+Representation representation_named(const std::string& name);
 
 /// Whether any shares mix each axis by itself.
 bool has_shares_an_axis(const Recipe& recipe);

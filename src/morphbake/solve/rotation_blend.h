@@ -87,15 +87,4 @@ class RotationBlend {
   std::optional<CholeskyFactor> factor_;
 };
 
-/// What transition states ask of the surface when rotations are blended.
-///
-/// Components in which all vertices are one source take it as it is.
-/// @param states     #sources by #V each
-/// @param reference  #V by 3: where displacements start, and what is held stands
-/// @throws BakeError "solve.not-finite"
-std::vector<Goal> goals_of_rotations(const DisplacementSystem& system, const RotationBlend& blend,
-                                     const MorphableMesh& mesh,
-                                     std::span<const TransitionState> states,
-                                     const Positions& reference);
-
 }  // namespace morphbake
