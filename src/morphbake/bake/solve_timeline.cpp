@@ -240,7 +240,7 @@ void check_still_regions(const Recipe& recipe, const RegionFields& regions) {
 SolveOptions options_for(Representation representation, const TimelineChanges& changes,
                          SolveOptions options) {
   options.every_frame =
-      options.every_frame || !changes.separable || representation == Representation::Rotation;
+      options.every_frame || !changes.separable || representation != Representation::Laplacian;
   return options;
 }
 

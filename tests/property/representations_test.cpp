@@ -2,10 +2,12 @@
 
 #include <Eigen/Geometry>
 #include <cmath>
+#include <functional>
 #include <memory>
 #include <numbers>
 
 #include "morphbake/mesh/measures.h"
+#include "morphbake/solve/affine_blend.h"
 #include "morphbake/solve/solve_fields.h"
 #include "morphbake/solve/state_system.h"
 #include "shapes/shapes.h"
@@ -137,7 +139,8 @@ TEST(Rotation, EveryVertexIsAtRestBetweenItsNeighbours) {
   // The normal equations of the least squares, with logarithms that are computed here.
   const MorphableMesh mesh = bars(120, 270);
   const Shapes shapes(mesh);
-  const RotationBlend& blend = *shapes.states().rotations;
+  const RotationBlend blend(mesh, std::make_shared<SourceDeformations>(shapes.deformations()),
+                            shapes.states().displacements->constraints(), Eigen::Vector2d(1, 0));
   TransitionState T(2, mesh.connectivity.vertex_count);
   for (Eigen::Index v = 0; v < T.cols(); ++v) {
     const double share = std::clamp(mesh.geometries[0](v, 1) + 0.2, 0.0, 1.0);
@@ -234,6 +237,69 @@ TEST(Rotation, HeldPartsOfAMixStandAsTheMixDoes) {
   const Shapes held(mesh, rule);
   const Positions free = Shapes(mesh).of_mix(Eigen::Vector2d(0.5, 0.5));
   EXPECT_LT(largest_distance(held.of_mix(Eigen::Vector2d(0.5, 0.5)), free), 1e-7);
+}
+
+/// Half-way between a torus and a copy that is turned by 150 degrees and moved.
+Positions half_of_turned_torus(
+    const std::function<StateSystem(const MorphableMesh&, std::unique_ptr<DisplacementSystem>)>&
+        make) {
+  const Mesh torus = test::torus(24, 16);
+  const Eigen::Matrix3d turn =
+      Eigen::AngleAxisd(150 * kDegree, Eigen::Vector3d(1, 1, 0).normalized()).toRotationMatrix();
+  Positions turned = torus.positions * turn.transpose();
+  turned.rowwise() += Eigen::RowVector3d(3, 0, 1);
+  const MorphableMesh mesh = test::morphable(torus.triangles, {torus.positions, turned});
+  const Components components = connected_components(one_rings(mesh.connectivity));
+  const std::vector<bool> untouched(static_cast<std::size_t>(mesh.connectivity.vertex_count));
+  auto system = std::make_unique<DisplacementSystem>(
+      mesh, choose_constraints(mesh, components, untouched, {HoldRule::Nothing, {}, {}, -1}),
+      RightHandSide::Edge);
+  const StateSystem states = make(mesh, std::move(system));
+  const Goal goal =
+      states.goal(uniform_transition(Eigen::Vector2d(0.5, 0.5), mesh.connectivity.vertex_count));
+  EXPECT_TRUE(goal.is_blend());
+  return states.rest + goal.blend;
+}
+
+TEST(Rigid, MovesATurnedCopyAsAWhole) {
+  const Positions half = half_of_turned_torus([](const auto& mesh, auto system) {
+    return rigid_states(mesh, Eigen::Vector2d(1, 0), std::move(system));
+  });
+  const Mesh torus = test::torus(24, 16);
+  const Eigen::Matrix3d turn =
+      Eigen::AngleAxisd(75 * kDegree, Eigen::Vector3d(1, 1, 0).normalized()).toRotationMatrix();
+  const Positions expected =
+      (torus.positions * turn.transpose()).rowwise() + Eigen::RowVector3d(1.5, 0, 0.5);
+  EXPECT_LT(largest_distance(half, expected), 1e-9);
+}
+
+TEST(Absolute, ShrinksATurnedCopy) {
+  const Positions half = half_of_turned_torus([](const auto& mesh, auto system) {
+    return absolute_states(mesh, Eigen::Vector2d(1, 0), std::move(system));
+  });
+  EXPECT_LT(bounding_diagonal(half), 0.8 * bounding_diagonal(test::torus(24, 16).positions));
+}
+
+TEST(Affine, GivesBackItsSourcesAndWhatLiesBetween) {
+  const MorphableMesh mesh = bars(60, 30);
+  const Components components = connected_components(one_rings(mesh.connectivity));
+  const std::vector<bool> untouched(static_cast<std::size_t>(mesh.connectivity.vertex_count));
+  const Constraints constraints =
+      choose_constraints(mesh, components, untouched, {HoldRule::Nothing, {}, {}, -1});
+  const AffineBlend blend(mesh, constraints, mesh.geometries[0]);
+  const double diagonal = bounding_diagonal(mesh.geometries[0]);
+  for (int source = 0; source < 2; ++source) {
+    const Eigen::VectorXd shares = Eigen::Vector2d::Unit(source);
+    // From far away: from the source itself nothing would be left to do.
+    Positions elsewhere = mesh.geometries[static_cast<std::size_t>(source)];
+    for (auto row : elsewhere.rowwise()) row.x() += 0.05 * std::sin(20 * row.y());
+    const Positions shape =
+        blend.shape(uniform_transition(shares, mesh.connectivity.vertex_count), elsewhere);
+    const Positions& expected = mesh.geometries[static_cast<std::size_t>(source)];
+    const Positions away = shape - expected;
+    EXPECT_LT((away.rowwise() - away.colwise().mean()).rowwise().norm().maxCoeff(),
+              1e-8 * diagonal);
+  }
 }
 
 }  // namespace
