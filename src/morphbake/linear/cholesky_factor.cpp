@@ -97,7 +97,8 @@ Eigen::SparseMatrix<double> upper_of(const Eigen::SparseMatrix<double>& matrix,
 }
 
 template <class Scalar>
-PackedFactor<Scalar> packed(const cholmod_factor& factor, const std::vector<int>& free) {
+PackedFactor<Scalar> packed(const cholmod_factor& factor, const std::vector<int>& free,
+                            std::size_t row_count) {
   const auto integers = [](const void* first, std::size_t count) {
     return std::span<const int>(static_cast<const int*>(first), count);
   };
@@ -108,7 +109,7 @@ PackedFactor<Scalar> packed(const cholmod_factor& factor, const std::vector<int>
   return PackedFactor<Scalar>(
       {integers(factor.super, factor.nsuper + 1), integers(factor.pi, factor.nsuper + 1),
        integers(factor.px, factor.nsuper + 1), integers(factor.s, factor.ssize),
-       static_cast<const double*>(factor.x), order});
+       static_cast<const double*>(factor.x), order, row_count});
 }
 
 }  // namespace
@@ -128,10 +129,11 @@ CholeskyFactor::CholeskyFactor(const SymmetricSystem& system, Precision precisio
   const std::unique_ptr<cholmod_factor, decltype(release)> factor(made, release);
   workspace.check(made != nullptr, "analysed");
   workspace.check(cholmod_factorize(&view, made, &workspace.common) != 0, "factorised");
+  const std::size_t row_count = system.singular_block.size();
   if (precision == Precision::Single) {
-    packed_ = packed<float>(*made, free);
+    packed_ = packed<float>(*made, free, row_count);
   } else {
-    packed_ = packed<double>(*made, free);
+    packed_ = packed<double>(*made, free, row_count);
   }
 }
 

@@ -7,7 +7,8 @@ namespace {
 
 constexpr int kTile = 4;  // rows
 constexpr int kTriangle = kTile * kTile;
-constexpr int kMostVectors = 3;  // a row: twelve of sixteen registers hold a tile
+constexpr int kBlockVectors = 3;                 // a row: twelve of sixteen registers hold a tile
+constexpr int kMostVectors = 2 * kBlockVectors;  // a row: the factor is read once for both halves
 constexpr int kVectorBytes = 32;
 
 template <class Scalar>
@@ -36,17 +37,21 @@ struct Packed {
 template <class Scalar, int N>
 MORPHBAKE_INLINE void subtract_from_rows(const Scalar* L, int columns, const Row<Scalar, N>* from,
                                          const int* rows, Row<Scalar, N>* y) {
-  typename Row<Scalar, N>::Vector sums[kTile][N];
-  for (int i = 0; i < kTile; ++i) {
-    for (int n = 0; n < N; ++n) sums[i][n] = y[rows[i]].vectors[n];
-  }
-  for (int k = 0; k < columns; ++k) {
+  constexpr int kBlock = N < kBlockVectors ? N : kBlockVectors;
+  for (int first = 0; first < N; first += kBlock) {
+    typename Row<Scalar, N>::Vector sums[kTile][kBlock];
     for (int i = 0; i < kTile; ++i) {
-      for (int n = 0; n < N; ++n) sums[i][n] -= L[kTile * k + i] * from[k].vectors[n];
+      for (int n = 0; n < kBlock; ++n) sums[i][n] = y[rows[i]].vectors[first + n];
     }
-  }
-  for (int i = 0; i < kTile; ++i) {
-    for (int n = 0; n < N; ++n) y[rows[i]].vectors[n] = sums[i][n];
+    for (int k = 0; k < columns; ++k) {
+      for (int i = 0; i < kTile; ++i) {
+        for (int n = 0; n < kBlock; ++n)
+          sums[i][n] -= L[kTile * k + i] * from[k].vectors[first + n];
+      }
+    }
+    for (int i = 0; i < kTile; ++i) {
+      for (int n = 0; n < kBlock; ++n) y[rows[i]].vectors[first + n] = sums[i][n];
+    }
   }
 }
 
@@ -54,15 +59,18 @@ MORPHBAKE_INLINE void subtract_from_rows(const Scalar* L, int columns, const Row
 template <class Scalar, int N>
 MORPHBAKE_INLINE void subtract_from_columns(const Scalar* L, int columns, const int* rows,
                                             const Row<Scalar, N>* y, Row<Scalar, N>* to) {
-  typename Row<Scalar, N>::Vector below[kTile][N];
-  for (int i = 0; i < kTile; ++i) {
-    for (int n = 0; n < N; ++n) below[i][n] = y[rows[i]].vectors[n];
-  }
-  for (int k = 0; k < columns; ++k) {
-    for (int n = 0; n < N; ++n) {
-      auto sum = to[k].vectors[n];
-      for (int i = 0; i < kTile; ++i) sum -= L[kTile * k + i] * below[i][n];
-      to[k].vectors[n] = sum;
+  constexpr int kBlock = N < kBlockVectors ? N : kBlockVectors;
+  for (int first = 0; first < N; first += kBlock) {
+    typename Row<Scalar, N>::Vector below[kTile][kBlock];
+    for (int i = 0; i < kTile; ++i) {
+      for (int n = 0; n < kBlock; ++n) below[i][n] = y[rows[i]].vectors[first + n];
+    }
+    for (int k = 0; k < columns; ++k) {
+      for (int n = 0; n < kBlock; ++n) {
+        auto sum = to[k].vectors[first + n];
+        for (int i = 0; i < kTile; ++i) sum -= L[kTile * k + i] * below[i][n];
+        to[k].vectors[first + n] = sum;
+      }
     }
   }
 }
@@ -160,7 +168,10 @@ void substitute(const Packed<Scalar>& packed, Row<Scalar, N>* y) {
 
 template <class Scalar>
 PackedFactor<Scalar>::PackedFactor(const SupernodalFactor& factor)
-    : order_(factor.order.begin(), factor.order.end()) {
+    : place_(factor.row_count, -1), factored_rows_(factor.order.size()) {
+  for (std::size_t row = 0; row < factored_rows_; ++row) {
+    place_[static_cast<std::size_t>(factor.order[row])] = static_cast<int>(row);
+  }
   const std::size_t count = factor.first_column.size() - 1;
   std::size_t tiles = 0, values = 0;
   for (std::size_t s = 0; s < count; ++s) {
@@ -177,7 +188,7 @@ PackedFactor<Scalar>::PackedFactor(const SupernodalFactor& factor)
     values += values_before(own) + kTriangle * own * (static_cast<std::size_t>(node.tiles) - own);
     supernodes_.push_back(node);
   }
-  rows_.assign(kTile * tiles, static_cast<int>(order_.size()));
+  rows_.assign(kTile * tiles, static_cast<int>(factored_rows_));
   values_.assign(values, Scalar(0));
   for (std::size_t s = 0; s < count; ++s) pack(factor, s);
 }
@@ -222,21 +233,25 @@ void PackedFactor<Scalar>::solve_panels(const Eigen::MatrixXd& b, Eigen::Index f
                                         Eigen::Index last, Eigen::MatrixXd& x) const {
   constexpr int kWidth = N * kLanes<Scalar>;
   // A supernode's last tile may reach beyond its columns, and the last one beyond all of them.
-  std::vector<Row<Scalar, N>> y(order_.size() + kTile);
+  std::vector<Row<Scalar, N>> y(factored_rows_ + kTile);
   const Eigen::Index stride = b.rows();
   for (Eigen::Index begin = first; begin < last; begin += kWidth) {
     const Eigen::Index columns = std::min<Eigen::Index>(kWidth, last - begin);
-    for (std::size_t row = 0; row < order_.size(); ++row) {
-      const double* from = b.data() + begin * stride + order_[row];
+    for (std::size_t row = 0; row < place_.size(); ++row) {
+      if (place_[row] < 0) continue;
+      Row<Scalar, N>& to = y[static_cast<std::size_t>(place_[row])];
+      const double* from = b.data() + begin * stride + static_cast<Eigen::Index>(row);
       for (Eigen::Index c = 0; c < columns; ++c, from += stride) {
-        y[row].vectors[c / kLanes<Scalar>][c % kLanes<Scalar>] = static_cast<Scalar>(*from);
+        to.vectors[c / kLanes<Scalar>][c % kLanes<Scalar>] = static_cast<Scalar>(*from);
       }
     }
     substitute<Scalar, N>({supernodes_, rows_.data(), values_.data()}, y.data());
-    for (std::size_t row = 0; row < order_.size(); ++row) {
-      double* to = x.data() + begin * stride + order_[row];
+    for (std::size_t row = 0; row < place_.size(); ++row) {
+      if (place_[row] < 0) continue;
+      const Row<Scalar, N>& from = y[static_cast<std::size_t>(place_[row])];
+      double* to = x.data() + begin * stride + static_cast<Eigen::Index>(row);
       for (Eigen::Index c = 0; c < columns; ++c, to += stride) {
-        *to = y[row].vectors[c / kLanes<Scalar>][c % kLanes<Scalar>];
+        *to = from.vectors[c / kLanes<Scalar>][c % kLanes<Scalar>];
       }
     }
   }
@@ -248,7 +263,9 @@ Eigen::MatrixXd PackedFactor<Scalar>::solve(const Eigen::MatrixXd& b) const {
   constexpr Eigen::Index kWidest = kMostVectors * kLanes<Scalar>;
   const Eigen::Index whole = b.cols() / kWidest * kWidest, left = b.cols() - whole;
   if (whole > 0) solve_panels<kMostVectors>(b, 0, whole, x);
-  if (left > 2 * kLanes<Scalar>) {
+  if (left > 3 * kLanes<Scalar>) {
+    solve_panels<6>(b, whole, b.cols(), x);
+  } else if (left > 2 * kLanes<Scalar>) {
     solve_panels<3>(b, whole, b.cols(), x);
   } else if (left > kLanes<Scalar>) {
     solve_panels<2>(b, whole, b.cols(), x);

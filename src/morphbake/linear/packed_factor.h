@@ -18,6 +18,7 @@ struct SupernodalFactor {
   std::span<const int> rows;
   const double* values = nullptr;
   std::span<const int> order;  ///< row of A at each row of L; rows of A that are not there stay 0
+  std::size_t row_count = 0;   ///< of A
 };
 
 /// A supernode in tiles of four rows: those of its triangle, then those below.
@@ -57,7 +58,8 @@ class PackedFactor {
   void solve_panels(const Eigen::MatrixXd& b, Eigen::Index first, Eigen::Index last,
                     Eigen::MatrixXd& x) const;
 
-  std::vector<int> order_;
+  std::vector<int> place_;  ///< #A: each row's in the factor, or -1
+  std::size_t factored_rows_ = 0;
   std::vector<PackedSupernode> supernodes_;
   std::vector<int> rows_;       ///< four a tile; one behind the last where there is none
   std::vector<Scalar> values_;  ///< a tile: four a column to its left; the triangle's own 4 by 4
