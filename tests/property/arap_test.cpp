@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <memory>
 #include <numbers>
 
@@ -103,7 +104,8 @@ struct Pose {
 class PosedCreature : public testing::TestWithParam<Pose> {};
 
 TEST_P(PosedCreature, KeepsLengthsAndAreasAsWellAsArap) {
-  const std::string file = std::string(MORPHBAKE_SOURCE_DIR) + "/examples/shapes/creature_base.glb";
+  const std::filesystem::path file =
+      std::filesystem::path(MORPHBAKE_SOURCE_DIR) / "examples/shapes/creature_base.glb";
   MorphableMesh mesh = share_connectivity({load_source({"base", file, {}, {}})});
   Positions& base = mesh.geometries[0];
   const double low = base.col(1).minCoeff(), high = base.col(1).maxCoeff();

@@ -1,5 +1,7 @@
 #include "shapes/arap.h"
 
+#include <Eigen/Geometry>
+#include <Eigen/LU>
 #include <Eigen/SVD>
 
 #include "morphbake/differential/laplacian.h"
