@@ -39,7 +39,8 @@ struct BandOptions {
 /// its vectors came first would be chance.
 ///
 /// @return #V by 3
-/// @throws BakeError "derive.band-out-of-range" at /first or /last, "linear.no-eigenvectors"; Cancelled
+/// @throws BakeError "derive.band-out-of-range" at /first or /last, "linear.no-eigenvectors";
+///         Cancelled
 /// @see    Alexa 2003, section 5.1
 Positions band_limited(const Mesh& mesh, const Band& band, const BandOptions& options = {},
                        const Observer& observer = {});
