@@ -128,6 +128,8 @@ for normal in 1 10 1e-200; do
   cmp -s mirror1/other.glb "mirror$normal/other.glb" || wrong "a normal of length $normal mirrors differently"
 done
 
+recipe tiny '{"spatial": {"half_space": {"normal": {"keys": [{"time": 0, "value": [1e-200, 0, 0]}, {"time": 1, "value": [0, 1e-200, 0]}]}}}}'
+run 0 validate tiny.json
 recipe bad '{"spatial": {"half_space": {"normal": {"keys": [{"time": 0, "value": [1, 0, 0]}, {"time": 1, "value": [-2, 0, 0]}]}}}}'
 refused 2 '#/regions/r/spatial/half_space/normal/keys/1/value: error: it is opposite to the key before'
 

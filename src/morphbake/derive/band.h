@@ -40,7 +40,7 @@ struct BandOptions {
 ///
 /// @return #V by 3
 /// @throws BakeError "derive.band-out-of-range" at /first or /last, "linear.no-eigenvectors";
-/// Cancelled
+///         Cancelled
 /// @see    Alexa 2003, section 5.1
 Positions band_limited(const Mesh& mesh, const Band& band, const BandOptions& options = {},
                        const Observer& observer = {});

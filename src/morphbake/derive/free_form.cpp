@@ -2,6 +2,8 @@
 
 #include <fmt/core.h>
 
+#include <Eigen/LU>
+#include <Eigen/SVD>
 #include <algorithm>
 #include <cassert>
 #include <cmath>
@@ -12,6 +14,7 @@
 #include "morphbake/differential/laplacian.h"
 #include "morphbake/differential/rotation_vector.h"
 #include "morphbake/linear/cholesky_factor.h"
+#include "morphbake/mesh/measures.h"
 #include "morphbake/solve/surface_solver.h"
 
 namespace morphbake {
@@ -19,6 +22,8 @@ namespace {
 
 constexpr int kFree = -1, kFixed = -2;
 constexpr double kTolerance = 1e-10;  ///< of the diagonal
+constexpr double kStill = 1e-5;       ///< of the diagonal, a pass
+constexpr int kMostPasses = 200;
 
 std::string name_of_holder(int holder) {
   return holder == kFixed ? "what is fixed" : fmt::format("handle {}", holder);
@@ -110,13 +115,39 @@ Eigen::MatrixXd harmonic_turns(const OneRings& rings, const std::vector<bool>& h
   return turns;
 }
 
-/// b of K_L V = b from the mesh's edges, turned and grown.
-Positions turned_differences(const OneRings& rings, const Positions& positions,
-                             const Eigen::MatrixXd& turns) {
-  std::vector<Eigen::Matrix3d> maps;
+/// What an edge becomes at each vertex.
+using Maps = std::vector<Eigen::Matrix3d>;
+
+Maps maps_of(const Eigen::MatrixXd& turns) {
+  Maps maps;
   for (const auto& turn : turns.rowwise()) {
     maps.push_back(std::exp(turn(3)) * rotation_of(turn.head<3>().transpose()).toRotationMatrix());
   }
+  return maps;
+}
+
+/// The rotations that fit `moved` best, each grown as before.
+Maps fitted_maps(const OneRings& rings, const Positions& rest, const Positions& moved,
+                 const Eigen::MatrixXd& turns) {
+  Maps maps;
+  for (Eigen::Index i = 0; i < rest.rows(); ++i) {
+    const auto v = static_cast<std::size_t>(i);
+    Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
+    for (int n = rings.offsets[v]; n < rings.offsets[v + 1]; ++n) {
+      const int j = rings.neighbours[static_cast<std::size_t>(n)];
+      covariance += (moved.row(i) - moved.row(j)).transpose() * (rest.row(i) - rest.row(j));
+    }
+    const Eigen::JacobiSVD<Eigen::Matrix3d> svd(covariance,
+                                                Eigen::ComputeFullU | Eigen::ComputeFullV);
+    Eigen::Matrix3d U = svd.matrixU();
+    if ((U * svd.matrixV().transpose()).determinant() < 0) U.col(2) *= -1;
+    maps.push_back(std::exp(turns(i, 3)) * U * svd.matrixV().transpose());
+  }
+  return maps;
+}
+
+/// b of K_L V = b from the mesh's edges, mapped.
+Positions mapped_differences(const OneRings& rings, const Positions& positions, const Maps& maps) {
   Positions b = Positions::Zero(positions.rows(), 3);
   for (std::size_t v = 0; v < maps.size(); ++v) {
     const auto i = static_cast<Eigen::Index>(v);
@@ -131,22 +162,45 @@ Positions turned_differences(const OneRings& rings, const Positions& positions,
 
 bool turns_or_grows(const Handle& handle) { return handle.turn.norm() > 0 || handle.growth != 1; }
 
-Goal goal_of(const DisplacementSystem& system, const Mesh& mesh, const std::vector<Handle>& handles,
-             Surroundings surroundings) {
-  const Positions moves = moves_of(mesh, handles);
-  if (surroundings == Surroundings::AsTheyAre ||
-      std::none_of(handles.begin(), handles.end(), turns_or_grows)) {
-    return system.goal_of_moves(moves);
-  }
-  const OneRings rings = one_rings({static_cast<int>(mesh.positions.rows()), mesh.triangles});
-  const std::vector<bool>& held = system.constraints().held;
-  const Positions b =
-      turned_differences(rings, mesh.positions, harmonic_turns(rings, held, handles));
+/// One a component: whether nothing of it is free.
+std::vector<bool> held_components(const DisplacementSystem& system) {
   std::vector<bool> all_held(static_cast<std::size_t>(system.components().count), true);
+  const std::vector<bool>& held = system.constraints().held;
   for (std::size_t v = 0; v < held.size(); ++v) {
     if (!held[v]) all_held[static_cast<std::size_t>(system.components().label[v])] = false;
   }
-  return system.goal_of_shape(b, mesh.positions + moves, std::move(all_held), mesh.positions);
+  return all_held;
+}
+
+/// Displacement for one goal, from where `x` is.
+Positions solved(const SurfaceSolver& solver, const Goal& goal, std::vector<Eigen::MatrixXd>& x) {
+  solver.solve({goal}, x);
+  return solver.system().displacement(goal, x[0]);
+}
+
+/// Differences turned with the handles first; then, in turn, as what came out is turned, and the
+/// positions for these, until they stand still.
+Positions turned_form(const SurfaceSolver& solver, const Mesh& mesh, const Positions& moves,
+                      const std::vector<Handle>& handles) {
+  const DisplacementSystem& system = solver.system();
+  const OneRings rings = one_rings({static_cast<int>(mesh.positions.rows()), mesh.triangles});
+  const Eigen::MatrixXd turns = harmonic_turns(rings, system.constraints().held, handles);
+  Maps maps = maps_of(turns);
+  Positions moved = mesh.positions;
+  std::vector<Eigen::MatrixXd> x;
+  for (int pass = 0; pass < kMostPasses; ++pass) {
+    const Goal goal =
+        system.goal_of_shape(mapped_differences(rings, mesh.positions, maps),
+                             mesh.positions + moves, held_components(system), mesh.positions);
+    if (goal.is_blend()) return mesh.positions + moves;
+    if (x.empty()) x.push_back(system.start(goal));
+    const Positions next = mesh.positions + solved(solver, goal, x);
+    const double step = largest_distance(next, moved);
+    moved = next;
+    if (step < kStill * system.diagonal()) break;
+    maps = fitted_maps(rings, mesh.positions, moved, turns);
+  }
+  return moved;
 }
 
 }  // namespace
@@ -161,17 +215,19 @@ Positions free_form(const Mesh& mesh, const std::vector<bool>& fixed,
   shape.geometries = {mesh.positions};
   const DisplacementSystem system(shape, constraints_of(shape.connectivity, holders),
                                   RightHandSide::Edge);
-  const Goal goal = goal_of(system, mesh, handles, surroundings);
+  const Positions moves = moves_of(mesh, handles);
+  SolveOptions options;
+  options.tolerance = kTolerance;
+  const bool turns = surroundings == Surroundings::Turned &&
+                     std::any_of(handles.begin(), handles.end(), turns_or_grows);
   Positions moved = mesh.positions;
-  if (goal.is_blend()) {
+  if (turns) {
+    moved = turned_form(SurfaceSolver(system, options, observer), mesh, moves, handles);
+  } else if (const Goal goal = system.goal_of_moves(moves); goal.is_blend()) {
     moved += goal.blend;
   } else {
-    SolveOptions options;
-    options.tolerance = kTolerance;
-    const SurfaceSolver solver(system, options, observer);
     std::vector<Eigen::MatrixXd> x = {system.start(goal)};
-    solver.solve({goal}, x);
-    moved += system.displacement(goal, x[0]);
+    moved += solved(SurfaceSolver(system, options, observer), goal, x);
   }
   for (const Handle& handle : handles) moved(handle.vertices, Eigen::all) = handle.positions;
   return moved;

@@ -26,7 +26,7 @@ Eigen::Vector3d vector_of(const Json& owner, const char* field, const Eigen::Vec
 Eigen::Vector3d read_direction(Reading& reading, const Json& owner, const std::string& pointer,
                                const char* field, const Eigen::Vector3d& otherwise) {
   const Eigen::Vector3d direction = vector_of(owner, field, otherwise);
-  if (!(direction.squaredNorm() > 0)) {
+  if (direction.isZero(0)) {
     complain(reading, "recipe.out-of-range", child_pointer(pointer, field),
              "(0, 0, 0) is no direction", "give for example [1, 0, 0]");
   }

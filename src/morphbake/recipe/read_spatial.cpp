@@ -72,14 +72,14 @@ struct ShapeFields {
   Animated<Eigen::Vector3d> direction(const char* field) const {
     Animated<Eigen::Vector3d> direction = vector(field);
     for (const Eigen::Vector3d& each : direction.values) {
-      if (each.squaredNorm() > 0) continue;
+      if (!each.isZero(0)) continue;
       complain(reading, "recipe.out-of-range", child_pointer(pointer, field),
                "(0, 0, 0) is no direction", "give for example [1, 0, 0]");
       return direction;
     }
     for (std::size_t k = 1; k < direction.values.size(); ++k) {
-      const Eigen::Vector3d before = direction.values[k - 1].normalized();
-      if ((before + direction.values[k].normalized()).norm() > 1e-6) continue;
+      const Eigen::Vector3d before = direction.values[k - 1].stableNormalized();
+      if ((before + direction.values[k].stableNormalized()).norm() > 1e-6) continue;
       complain(reading, "recipe.out-of-range",
                child_pointer(child_pointer(pointer, field) + "/keys", k) + "/value",
                "it is opposite to the key before: between them the direction vanishes",
