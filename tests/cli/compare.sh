@@ -63,6 +63,24 @@ stdout_has "open"
 compare nose/nose.glb tracks/tracks.glb --formats sheet -o open/open --json
 json_has '.files[0] | (.closed | not) and .volume == null and .worst.volume == null and .worst.area != null'
 
+# Two triangles that are welded at rest, one of which flies off.
+node -e '
+  const rest = [0,0,0, 0,1,0, -1,0,0, 0,1,0, 0,0,0, 1,0,0], moved = [...Array(9).fill(0), 0,0,1, 0,0,1, 0,0,1];
+  const data = Buffer.from(new Float32Array([...rest, ...moved, 0, 1, 0, 1]).buffer);
+  const accessor = (type, view, count, more) => ({ type, componentType: 5126, bufferView: view, count, ...more });
+  console.log(JSON.stringify({
+    asset: { version: "2.0" }, scenes: [{ nodes: [0] }], nodes: [{ mesh: 0 }],
+    meshes: [{ weights: [0], primitives: [{ attributes: { POSITION: 0 }, targets: [{ POSITION: 1 }] }] }],
+    animations: [{ channels: [{ sampler: 0, target: { node: 0, path: "weights" } }], samplers: [{ input: 2, output: 3 }] }],
+    accessors: [accessor("VEC3", 0, 6, { min: [-1, 0, 0], max: [1, 1, 0] }), accessor("VEC3", 1, 6, { min: [0, 0, 0], max: [0, 0, 1] }),
+      accessor("SCALAR", 2, 2, { min: [0], max: [1] }), accessor("SCALAR", 3, 2)],
+    bufferViews: [[0, 72], [72, 72], [144, 8], [152, 8]].map(([byteOffset, byteLength]) => ({ buffer: 0, byteOffset, byteLength })),
+    buffers: [{ byteLength: data.length, uri: "data:application/octet-stream;base64," + data.toString("base64") }] }));' >torn.gltf
+compare torn.gltf tracks/tracks.glb --formats sheet -o torn/torn --json
+stderr_has "torn.gltf#/nodes/0: warning: vertices that are one point at rest are 1 apart at 1 s"
+stderr_has "[preview.torn]"
+json_has '.files[0].edges == 5 and .files[0].largest_tear == 1 and .files[1].largest_tear == 0'
+
 # The files may also come last.
 # shellcheck disable=SC2086
 run 0 preview $small --compare -o last/last --formats sheet tracks/tracks.glb eased/eased.glb

@@ -17,7 +17,7 @@ namespace {
 
 constexpr int kIntervals = 48;   ///< between measured times
 constexpr double kTorn = 1e-5;   ///< of the diagonal: files hold floats
-constexpr int kSheetAcross = 4;  ///< pictures of single files in a row of the contact sheet
+constexpr int kSheetAcross = 8;  ///< pictures of single files in a row of the contact sheet
 
 /// A file as it was read.
 struct OpenMorph {

@@ -33,6 +33,7 @@ void number_repeated(std::vector<std::string>& names) {
 }  // namespace
 
 std::vector<std::string> distinct_names(const std::vector<fs::path>& files) {
+  const std::size_t different = std::set<fs::path>(files.begin(), files.end()).size();
   std::ptrdiff_t longest = 1;
   for (const fs::path& file : files) {
     longest = std::max(longest, std::distance(file.begin(), file.end()));
@@ -41,7 +42,7 @@ std::vector<std::string> distinct_names(const std::vector<fs::path>& files) {
   for (std::ptrdiff_t count = 1; count <= longest; ++count) {
     names.clear();
     for (const fs::path& file : files) names.push_back(path_end(file, count));
-    if (std::set<std::string>(names.begin(), names.end()).size() == files.size()) break;
+    if (std::set<std::string>(names.begin(), names.end()).size() == different) break;
   }
   number_repeated(names);
   return names;

@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::array<std::uint8_t, 3> kPaper{246, 245, 243};
 constexpr std::array<std::uint8_t, 3> kText{40, 40, 44};
-constexpr int kPixelsALetterDot = 170;  ///< width of a picture for each pixel of a letter's dots
+constexpr int kPixelsALetterDot = 150;  ///< width of a picture for each pixel of a letter's dots
 
 }  // namespace
 

@@ -9,8 +9,8 @@ namespace morphbake {
 
 /// Pictures beside one another, each below a strip with its caption.
 ///
-/// Letters grow with the pictures, so that they are still read when a contact sheet halves them;
-/// captions that are too long lose their middles.
+/// Letters grow with the pictures, so that those of 300 pixels and more are still read when a contact
+/// sheet halves them; captions that are too long lose their middles.
 /// @param pictures  one or more of one size
 /// @param captions  one a picture
 /// @param note      stands at the right end of the last strip where there is room

@@ -10,6 +10,8 @@ using Names = std::vector<std::string>;
 TEST(DistinctNames, AreNumberedWhereAFileIsThereTwice) {
   EXPECT_EQ(distinct_names({"a.glb", "a.glb", "a.glb"}),
             (Names{"a.glb", "a.glb (2)", "a.glb (3)"}));
+  EXPECT_EQ(distinct_names({"out/a.glb", "out/a.glb"}), (Names{"a.glb", "a.glb (2)"}));
+  EXPECT_EQ(distinct_names({"1/a", "1/a", "2/a"}), (Names{"1/a", "1/a (2)", "2/a"}));
   EXPECT_EQ(distinct_names({"a", "a", "a (2)"}), (Names{"a", "a (2)", "a (2) (2)"}));
 }
 
