@@ -9,7 +9,7 @@ namespace morphbake {
 
 /// Pictures beside one another, each below a strip with its caption.
 ///
-/// Letters grow with the pictures, so that those of 300 pixels and more are still read when a contact
+/// Letters grow with the pictures, so that from 300 pixels on they are still read when a contact
 /// sheet halves them; captions that are too long lose their middles.
 /// @param pictures  one or more of one size
 /// @param captions  one a picture
