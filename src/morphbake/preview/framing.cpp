@@ -74,7 +74,8 @@ Eigen::Affine3d to_scene_axes(const AnimatedMesh& mesh) {
 
 /// Bounds of every moment, as to_scene_axes.
 std::vector<Eigen::AlignedBox3d> moment_bounds(const FramedMotion& motion) {
-  const auto& [file, mesh, moments] = motion;
+  const AnimatedMesh& mesh = motion.mesh;
+  const std::vector<LoopMoment>& moments = motion.moments;
   std::vector<Eigen::AlignedBox3d> bounds(moments.size());
   std::vector<char> finite(moments.size());
   const Eigen::Affine3d to_scene = to_scene_axes(mesh);
@@ -85,7 +86,8 @@ std::vector<Eigen::AlignedBox3d> moment_bounds(const FramedMotion& motion) {
     bounds[i] = bounds_of(poses);
   });
   const auto bad = std::find(finite.begin(), finite.end(), 0);
-  if (bad != finite.end()) fail_not_finite(file, static_cast<std::size_t>(bad - finite.begin()));
+  if (bad != finite.end())
+    fail_not_finite(motion.file, static_cast<std::size_t>(bad - finite.begin()));
   return bounds;
 }
 
@@ -192,14 +194,14 @@ Eigen::Matrix3d view_axes(double elevation) {
 
 std::vector<Silhouette> silhouettes_of(const FramedMotion& motion, const Framing& framing,
                                        const Eigen::Matrix3d& view, double half_height) {
-  const auto& [file, mesh, moments] = motion;
+  const std::vector<LoopMoment>& moments = motion.moments;
   const double typical = 1 / half_height;
   const std::array<double, 4> distances{std::max(1.05, 0.8 * typical), std::max(1.1, typical),
                                         std::max(1.2, 1.3 * typical), std::max(1.5, 1.8 * typical)};
   std::vector<Silhouette> silhouettes(moments.size());
   tbb::parallel_for(std::size_t{0}, moments.size(), [&](std::size_t i) {
     std::vector<PosedPrimitive> poses;
-    pose_mesh(mesh, moments[i].weights, mesh_to_studio(framing, moments[i].azimuth), poses);
+    pose_mesh(motion.mesh, moments[i].weights, mesh_to_studio(framing, moments[i].azimuth), poses);
     silhouettes[i] = silhouette_of(poses, view, distances);
   });
   return silhouettes;
