@@ -104,17 +104,21 @@ Mesh bar(int across) {
       points.emplace_back((i / cells - 0.5) * kWidth, j / (5 * cells), (k / cells - 0.5) * kWidth);
     return entry->second;
   };
+  // Diagonals alternate, so that no way of twisting is along them.
+  const auto add = [&](bool other_way, int a, int b, int c, int d) {
+    if (other_way)
+      add_quad(list, b, c, d, a);
+    else
+      add_quad(list, a, b, c, d);
+  };
   for (int j = 0; j < along; ++j) {
     for (int i = 0; i < across; ++i) {
       const int n = across;
-      add_quad(list, vertex(i, j, n), vertex(i + 1, j, n), vertex(i + 1, j + 1, n),
-               vertex(i, j + 1, n));
-      add_quad(list, vertex(i + 1, j, 0), vertex(i, j, 0), vertex(i, j + 1, 0),
-               vertex(i + 1, j + 1, 0));
-      add_quad(list, vertex(n, j, i + 1), vertex(n, j, i), vertex(n, j + 1, i),
-               vertex(n, j + 1, i + 1));
-      add_quad(list, vertex(0, j, i), vertex(0, j, i + 1), vertex(0, j + 1, i + 1),
-               vertex(0, j + 1, i));
+      const bool odd = (i + j) % 2 != 0;
+      add(odd, vertex(i, j, n), vertex(i + 1, j, n), vertex(i + 1, j + 1, n), vertex(i, j + 1, n));
+      add(odd, vertex(i + 1, j, 0), vertex(i, j, 0), vertex(i, j + 1, 0), vertex(i + 1, j + 1, 0));
+      add(odd, vertex(n, j, i + 1), vertex(n, j, i), vertex(n, j + 1, i), vertex(n, j + 1, i + 1));
+      add(odd, vertex(0, j, i), vertex(0, j, i + 1), vertex(0, j + 1, i + 1), vertex(0, j + 1, i));
     }
   }
   for (int i = 0; i < across; ++i) {
