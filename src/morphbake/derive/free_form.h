@@ -32,14 +32,16 @@ enum class Surroundings {
 /// 1e-10 of the diagonal of the minimum, by the solver's estimate. L is not invariant to turns
 /// and growth: where surroundings are turned, the handles' turns (as vectors, of any length) and
 /// the logarithms of their growth are spread harmonically to what is free, 0 at what is fixed, and
-/// W is what the differences along edges become by the means of their ends' turns.
+/// W is what the differences along edges become by the means of their ends' turns. From there the
+/// rotations that fit the result best and the positions for these are found in turn, until a pass
+/// moves nothing by more than 1e-5 of the diagonal, 200 passes at most.
 ///
 /// @param fixed  #V
 /// @return       #V by 3
 /// @throws BakeError "derive.overlapping-handles" at /handles/N, "solve.not-finite",
 ///         "solve.no-convergence", "linear.out-of-memory"; Cancelled
 /// @see    Alexa 2003, section 6, eq. 8; Zayer et al. 2005, Harmonic guidance for surface
-/// deformation
+///         deformation; Sorkine and Alexa 2007, As-rigid-as-possible surface modeling
 Positions free_form(const Mesh& mesh, const std::vector<bool>& fixed,
                     const std::vector<Handle>& handles,
                     Surroundings surroundings = Surroundings::AsTheyAre,
