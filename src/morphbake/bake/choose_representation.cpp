@@ -105,6 +105,11 @@ std::string what_needs_differences(const Recipe& recipe) {
   return "";
 }
 
+std::string sharp_turns(const MostTurned& most) {
+  return fmt::format(", but {:.2g} % of them turn by more than {} rad against their neighbours",
+                     100 * most.sharp.sharp, kSharpTurn);
+}
+
 void warn_of_sharp_turns(const Recipe& recipe, const MorphableMesh& mesh, const MostTurned& most,
                          const Observer& observer) {
   if (most.sharp.sharpest <= kSharpTurn) return;
@@ -143,20 +148,14 @@ RepresentationChoice choose_representation(const Recipe& recipe, const Morphable
   choice.deformations = std::make_shared<SourceDeformations>(source_deformations(mesh));
   const MostTurned most = most_turned(recipe, mesh, *choice.deformations);
   if (recipe.representation == Representation::Auto) {
-    const std::string turned = fmt::format(
-        "\"{}\" is turned against \"{}\": half-way edges would lose {:.2g} % of their "
-        "length",
-        mesh.names[static_cast<std::size_t>(most.to)],
-        mesh.names[static_cast<std::size_t>(most.from)], 100 * most.shrinks.shrinking);
-    const bool shrinks = most.shrinks.shrinking > kShrinking;
+    const bool is_turned = most.shrinks.shrinking > kShrinking;
     const bool is_clear = most.sharp.sharp <= kManySharp;
-    choice.reason =
-        fmt::format("{}{}", turned,
-                    shrinks && !is_clear ? fmt::format(", but {:.2g} % of the edges turn by "
-                                                       "more than {} rad",
-                                                       100 * most.sharp.sharp, kSharpTurn)
-                                         : "");
-    if (shrinks && is_clear) choice.representation = Representation::Rotation;
+    choice.reason = fmt::format(
+        "half-way from \"{}\" to \"{}\" edges lose {:.2g} % of their length by their turns{}",
+        mesh.names[static_cast<std::size_t>(most.from)],
+        mesh.names[static_cast<std::size_t>(most.to)], 100 * most.shrinks.shrinking,
+        is_turned && !is_clear ? sharp_turns(most) : "");
+    if (is_turned && is_clear) choice.representation = Representation::Rotation;
   }
   if (choice.representation == Representation::Laplacian) {
     choice.deformations.reset();
