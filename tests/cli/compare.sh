@@ -3,7 +3,7 @@
 shapes=$3
 
 bar() { # NAME, END, TARGETS, EASE: a straight bar that bends and twists until END
-  jq -n --arg shapes "$shapes" --arg name "$1" --argjson seconds "$2" --arg targets "$3" --arg ease "$4" '{version: 1, name: $name,
+  jq -n --arg shapes "$shapes" --arg name "$1" --argjson seconds "$2" --arg targets "$3" --arg ease "$4" '{version: 1, name: $name, representation: "laplacian",
     sources: {straight: ($shapes + "/bar_straight.glb"), bent: ($shapes + "/bar_bent_twisted.glb")},
     timeline: {fps: 12, tracks: [{name: "bend", to: "bent", begin: 0, end: $seconds, ease: $ease}], duration: $seconds},
     outputs: [{file: ($name + ".glb"), targets: $targets}]}' >"$1.json"
