@@ -56,6 +56,8 @@ std::vector<std::string> summary_lines(const BakeReport& report) {
   for (const StageReport& stage : report.stages) seconds += stage.seconds;
   lines.push_back(fmt::format("{}: {} vertices, {} triangles, {} frames in {:.2f} s", report.recipe,
                               report.vertices, report.triangles, report.frames, seconds));
+  lines.push_back(
+      fmt::format("  {}: {}", report.solve.representation, report.solve.representation_reason));
   lines.push_back(solve_line(report.solve));
   for (const StageReport& stage : report.stages) {
     lines.push_back(fmt::format("  {:<14}{:8.2f} s", stage.name, stage.seconds));

@@ -26,6 +26,7 @@ Examples:
   morphbake remesh recipe.json -o same       the sources on one new connectivity
   morphbake inspect out/morph.glb            targets, sizes, bounds
   morphbake preview out/morph.glb            turntable of any morph glTF
+  morphbake preview --compare a.glb b.glb    side by side, and how their shapes change
   morphbake landmarks suggest a.glb b.glb    points that correspond, with pictures
   morphbake config                           every option with its default
 

@@ -6,11 +6,14 @@
 
 #include <cmath>
 #include <map>
+#include <memory>
 #include <numeric>
 
+#include "bench/plain_factors.h"
 #include "bench/timing.h"
 #include "morphbake/linear/cholesky_factor.h"
 #include "morphbake/solve/solve_frames.h"
+#include "morphbake/solve/state_system.h"
 #include "shapes/shapes.h"
 
 namespace morphbake::bench {
@@ -45,6 +48,13 @@ struct Scene {
     return change;
   }
 
+  std::vector<Goal> goals_at(const DisplacementSystem& system,
+                             std::span<const double> moments) const {
+    std::vector<Goal> goals;
+    for (const double time : moments) goals.push_back(system.goal(change_at(time)));
+    return goals;
+  }
+
   DisplacementSystem system(HoldRule rule) const {
     const SeparableTimeline middle{Shares(0, 1), {{"", change_at(0.5), {}}}};
     return {mesh,
@@ -72,10 +82,12 @@ struct Counts {
 
 Counts count_iterations(const Scene& scene, const SurfaceSolver& solver) {
   Counts counts;
-  const auto change_at = [&](double time) { return scene.change_at(time); };
+  const auto goals_at = [&](std::span<const double> times) {
+    return scene.goals_at(solver.system(), times);
+  };
   const std::vector<double> first(scene.times.begin(), scene.times.begin() + kFramesCounted);
   const std::vector<SolveRecord> records =
-      solve_frames(solver, first, change_at, nobody, [](int, const Positions&) {});
+      solve_frames(solver, first, goals_at, nobody, [](int, const Positions&) {});
   // The first two frames have no neighbours yet.
   for (std::size_t f = 2; f < records.size(); ++f) {
     counts.warm += records[f].convergence.iterations / (kFramesCounted - 2.0);
@@ -176,38 +188,53 @@ double sum_twice(const std::vector<double>& numbers) {
   return sum;
 }
 
+/// What others' solves take, beside ours of sixteen frames.
 void bench_factor(const std::string& group, const Scene& scene, const DisplacementSystem& system,
                   double gauss_seidel, Figures& figures) {
   const int vertices = scene.mesh.connectivity.vertex_count;
   const double setup = seconds_of([&] { CholeskyFactor unused(system.equations()); });
   const CholeskyFactor factor(system.equations());
+  const CholeskyFactor single(system.equations(), Precision::Single);
   Eigen::MatrixXd sixteen(vertices, 3 * kFrames);
   for (int f = 0; f < kFrames; ++f) {
     const Goal goal = system.goal(scene.change_at(scene.times[static_cast<std::size_t>(f)]));
     sixteen.middleCols(3 * f, 3) = system.residual(goal, Eigen::MatrixXd::Zero(vertices, 3));
   }
-  const Eigen::MatrixXd one = sixteen.leftCols(3);
-  const Pair solves = time_pair(
-      kRepeats, [&] { factor.solve(sixteen); },
-      [&] {
-        for (int f = 0; f < kFrames; ++f) factor.solve(one);
-      });
+  const Eigen::SparseMatrix<double> plain_matrix = grounded(system.equations().matrix);
+  const PlainCholmod cholmod(plain_matrix);
+  const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> eigen(plain_matrix);
+  const Eigen::MatrixXd plain_sixteen = sixteen.bottomRows(vertices - 1);
+  const Eigen::MatrixXd plain_one = plain_sixteen.leftCols(3);
+  const auto by_cholmod = [&](Eigen::MatrixXd b) { cholmod.solve(b); };
+  const auto ours = [&] { factor.solve(sixteen); };
+  const double a_frame = 1e3 / kFrames;
+  const Pair eigen_pair = time_pair(
+      3, [&] { eigen.solve(plain_one); }, ours);
+  const Pair one_pair = time_pair(
+      3, [&] { by_cholmod(plain_one); }, ours);
+  const Pair sixteen_pair = time_pair(
+      kRepeats, [&] { by_cholmod(plain_sixteen); }, ours);
+  const Pair single_pair = time_pair(
+      kRepeats, [&] { by_cholmod(plain_sixteen); }, [&] { single.solve(sixteen); });
   const std::vector<double> numbers(factor.bytes() / sizeof(double), 1.0);
   volatile double kept = 0;
   const Pair streaming = time_pair(
-      kRepeats, [&] { kept = kept + sum_twice(numbers); }, [&] { factor.solve(sixteen); });
-  const double ms = solves.first / kFrames * 1e3;
-  figures.push_back({group, "factor, set-up", setup * 1e3, "ms", ""});
-  figures.push_back({group, "factor, bytes a vertex",
-                     1.0 * static_cast<double>(factor.bytes()) / vertices, "B", ""});
-  figures.push_back({group, "CHOLMOD, sixteen frames a solve", ms, "ms/frame", ""});
-  figures.push_back(
-      {group, "CHOLMOD, one frame a solve", solves.second / kFrames * 1e3, "ms/frame", ""});
-  figures.push_back({group, "one / sixteen", solves.ratio, "x", "pairs"});
-  figures.push_back({group, "streaming the factor twice", streaming.first * 1e3, "ms", ""});
-  figures.push_back(
-      {group, "sixteen, a frame / streaming twice", streaming.ratio / kFrames, "x", "pairs"});
-  figures.push_back({group, "warm Gauss-Seidel / sixteen", gauss_seidel / ms, "x", ""});
+      kRepeats, [&] { kept = kept + sum_twice(numbers); }, ours);
+  const auto add = [&](const char* name, double value, const char* unit, const char* note) {
+    figures.push_back({group, name, value, unit, note});
+  };
+  add("factor, set-up", setup * 1e3, "ms", "");
+  add("factor, bytes a vertex", static_cast<double>(factor.bytes()) / vertices, "B", "");
+  add("Eigen SimplicialLDLT, one frame a solve", eigen_pair.first * 1e3, "ms/frame", "");
+  add("CHOLMOD, one frame a solve", one_pair.first * 1e3, "ms/frame", "");
+  add("CHOLMOD, sixteen frames a solve", sixteen_pair.first * a_frame, "ms/frame", "");
+  add("float64 factor, sixteen", sixteen_pair.second * a_frame, "ms/frame", "");
+  add("float32 factor, sixteen", single_pair.second * a_frame, "ms/frame", "");
+  add("float64 / CHOLMOD, sixteen", sixteen_pair.ratio, "x", "pairs");
+  add("float32 / CHOLMOD, sixteen", single_pair.ratio, "x", "pairs");
+  add("streaming the float64 factor twice", streaming.first * 1e3, "ms", "");
+  add("float64, a frame / streaming twice", streaming.ratio / kFrames, "x", "pairs");
+  add("warm Gauss-Seidel / float64", gauss_seidel / (sixteen_pair.second * a_frame), "x", "");
 }
 
 /// Whole frames: goal, residuals, corrections, displacements.
@@ -215,12 +242,14 @@ void bench_frames(const std::string& group, const Scene& scene, const Displaceme
                   double tolerance, Figures& figures) {
   const SurfaceSolver direct(system, options_of(Solver::Direct, tolerance), nobody);
   const SurfaceSolver warm(system, options_of(Solver::Warm, tolerance), nobody);
-  const auto change_at = [&](double time) { return scene.change_at(time); };
+  const auto goals_at = [&](std::span<const double> times) {
+    return scene.goals_at(system, times);
+  };
   int corrections = 0;
   const auto run = [&](const SurfaceSolver& solver) {
     corrections = 0;
     for (const SolveRecord& record :
-         solve_frames(solver, scene.times, change_at, nobody, [](int, const Positions&) {})) {
+         solve_frames(solver, scene.times, goals_at, nobody, [](int, const Positions&) {})) {
       corrections += record.convergence.iterations;
     }
   };
@@ -229,6 +258,50 @@ void bench_frames(const std::string& group, const Scene& scene, const Displaceme
   figures.push_back({group, "direct, whole frames", pair.first / kFrames * 1e3, "ms/frame", ""});
   figures.push_back({group, "warm, whole frames", pair.second / kFrames * 1e3, "ms/frame",
                      fmt::format("{} corrections for {} frames", corrections, kFrames)});
+}
+
+/// Whole frames of a uniform mix of a bar and the same bent and twisted, with turns and without.
+void bench_rotations(int vertices, Figures& figures) {
+  const Mesh bar = test::bar(static_cast<int>(std::sqrt(vertices / 22.0)));
+  const MorphableMesh mesh = test::morphable(
+      bar.triangles, {bar.positions, test::bent_and_twisted(bar.positions, 2.1, 4.7)});
+  const auto system = [&] {
+    const std::vector<bool> untouched(static_cast<std::size_t>(mesh.connectivity.vertex_count));
+    return std::make_unique<DisplacementSystem>(
+        mesh,
+        choose_constraints(mesh, connected_components(one_rings(mesh.connectivity)), untouched,
+                           {HoldRule::Nothing, {}, {}, -1}),
+        RightHandSide::Edge);
+  };
+  const SolveOptions options = options_of(Solver::Warm, 1e-8);
+  const Eigen::Vector2d first(1, 0);
+  const StateSystem turned =
+      rotation_states(mesh, std::make_shared<SourceDeformations>(source_deformations(mesh)), first,
+                      system(), options, nobody);
+  const StateSystem plain = laplacian_states(mesh, first, system());
+  const SurfaceSolver solver(*plain.displacements, options, nobody);
+  std::vector<double> times;
+  for (int f = 0; f < kFrames; ++f) times.push_back((f + 1.0) / (kFrames + 1));
+  const auto run = [&](const StateSystem& states) {
+    const auto goals_at = [&](std::span<const double> moments) {
+      std::vector<TransitionState> all;
+      for (const double t : moments) {
+        TransitionState T = uniform_transition(Eigen::Vector2d(1 - t, t), bar.positions.rows());
+        T(0, 0) += 1e-3;  // not one mix everywhere: that needs no solve without turns
+        T(1, 0) -= 1e-3;
+        all.push_back(T);
+      }
+      return states.goals(all);
+    };
+    solve_frames(solver, times, goals_at, nobody, [](int, const Positions&) {});
+  };
+  const Pair pair = time_pair(
+      3, [&] { run(plain); }, [&] { run(turned); });
+  const std::string group =
+      "rotation, " + shown_count(static_cast<int>(bar.positions.rows())) + " vertices";
+  figures.push_back({group, "laplacian, whole frames", pair.first / kFrames * 1e3, "ms/frame", ""});
+  figures.push_back({group, "rotation, whole frames", pair.second / kFrames * 1e3, "ms/frame", ""});
+  figures.push_back({group, "rotation / laplacian", pair.ratio, "x", "pairs"});
 }
 
 }  // namespace
@@ -256,6 +329,7 @@ void bench_solvers(int vertices, Figures& figures) {
                          static_cast<double>(held.equations().matrix.rows()),
                      "B", ""});
   bench_frames(group, scene, held, 1e-8, figures);
+  bench_rotations(vertices, figures);
 }
 
 }  // namespace morphbake::bench

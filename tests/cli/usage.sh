@@ -24,6 +24,11 @@ refused "SOURCES" init one.glb
 refused "'5' is not a size" preview a.glb --size 5
 refused "'1x100' is not a size" preview a.glb --size 1x100
 refused "mp4" preview a.glb --formats mp4
+refused "second.glb" preview a.glb second.glb
+refused "name two to six files" preview --compare a.glb
+refused "name two to six files" preview --compare 1.glb 2.glb 3.glb 4.glb 5.glb 6.glb 7.glb
+refused "--compare" preview a.glb --json
+refused "none.glb" preview --compare none.glb missing.glb
 refused "[files.missing]" inspect none.glb
 refused "none.json" bake none.json
 refused "none.json" validate none.json

@@ -16,7 +16,8 @@ const of = (r, more = {}) => ({
 const spatial = (shape, width = 0.2, more = {}) => of({ spatial: { ...shape, width, ...more } });
 /** A recipe over the drum, which has texture coordinates, two materials and two primitives. */
 const drum = (mask) => ({
-  version: 1, name: 'golden', sources: { drum: 'drum.glb', bent: 'drum-bent.glb' }, regions: { r: { mask: { on: 'drum', ...mask } } },
+  version: 1, name: 'golden', sources: { drum: 'drum.glb', bent: 'drum-bent.glb' },
+  representation: 'laplacian', regions: { r: { mask: { on: 'drum', ...mask } } },
   timeline: { fps: 4, tracks: [{ region: 'r', to: 'bent', begin: 0, end: 1, ease: 'linear' }] },
   outputs: [{ file: 'golden.glb', targets: 'frames' }] });
 /** A recipe that shows one shape of `states` and `derived` sources. */
@@ -25,6 +26,9 @@ const still = (states, derived = {}, regions = {}) => ({
   timeline: { fps: 4, keys: [{ time: 0, state: 'orb' }, { time: 1, state: Object.keys(states)[0] }] },
   outputs: [{ file: 'golden.glb', targets: 'frames' }] });
 const derived = (how, regions = {}) => still({ shown: { mix: 'made' } }, { made: how }, regions);
+/** A recipe whose second shape is turned against the first. */
+const represented = (representation) => ({ representation,
+  ...derived({ transform: { of: 'nosed', rotate: { axis: [1, 2, 2], degrees: 120 }, scale: { factor: 0.6, along: [0, 0, 1] } } }) });
 const keys = (pairs) => ({ keys: pairs.map(([time, value]) => ({ time, value })) });
 
 export const RECIPES = {
@@ -62,10 +66,17 @@ export const RECIPES = {
   'edit': derived({ edit: { of: 'orb', region: 'a', handles: [
     { region: 'b', translate: [0, 0.1, 0.4], rotate: { axis: [0, 0, 1], degrees: 30 }, scale: 0.8 },
     { at: 'side', to: [1.3, 0.1, 0.2] }] } }, { a: ball('nose', 0.6, 0.8), b: ball('nose', 0.1, 0.1) }),
+  'edit-turned': derived({ edit: { of: 'orb', region: 'a', representation: 'rotation', handles: [
+    { region: 'b', translate: [0, 0.1, 0.4], rotate: { axis: [0, 0, 1], degrees: 120 }, scale: 0.8 }] } },
+  { a: ball('nose', 0.6, 0.8), b: ball('nose', 0.1, 0.1) }),
   'mirror': derived({ mirror: { of: 'long', symmetric: 'orb' } }),
   'transform': derived({ transform: { of: 'long', translate: [0, 1, 0], scale: { factor: 0.5, along: [0, 0, 1] } } }),
-  'derived-of-derived': still({ shown: { mix: 'twice' } }, { twice: { band: { of: 'once', last: 30 } },
-    once: { transform: { of: 'nosed', rotate: { degrees: 90 } } } }),
+  'derived-of-derived': { representation: 'laplacian', ...still({ shown: { mix: 'twice' } }, {
+    twice: { band: { of: 'once', last: 30 } }, once: { transform: { of: 'nosed', rotate: { degrees: 90 } } } }) },
+  'rotation': represented('rotation'),
+  'affine': represented('affine'),
+  'rigid': represented('rigid'),
+  'absolute': represented('absolute'),
   'bezier-and-after': { ...of(ball('nose', 0.2, 0.5)), timeline: { fps: 8, start: 'orb', tracks: [
     { region: 'r', to: 'long', begin: 0, duration: 0.5, ease: [0.4, 0, 0.2, 1] },
     { name: 'second', to: 'nosed', amount: 0.5, begin: { after: 'r', delay: -0.1 }, duration: 0.5, ease: 'cubic' }] } },

@@ -76,9 +76,13 @@ struct Sweep {
   std::vector<SolveRecord> solve(const SurfaceSolver& solver,
                                  std::vector<Positions>& frames) const {
     const Observer nobody;
-    return solve_frames(
-        solver, times, [this](double time) { return change_at(time); }, nobody,
-        [&](int, const Positions& frame) { frames.push_back(frame); });
+    const auto goals_at = [&](std::span<const double> moments) {
+      std::vector<Goal> goals;
+      for (const double time : moments) goals.push_back(solver.system().goal(change_at(time)));
+      return goals;
+    };
+    return solve_frames(solver, times, goals_at, nobody,
+                        [&](int, const Positions& frame) { frames.push_back(frame); });
   }
 };
 

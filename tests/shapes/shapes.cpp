@@ -1,6 +1,8 @@
 #include "shapes/shapes.h"
 
+#include <array>
 #include <cmath>
+#include <map>
 #include <numbers>
 #include <random>
 
@@ -87,6 +89,68 @@ Mesh grid(int columns, int rows) {
   }
   mesh.triangles = to_triangles(list);
   return mesh;
+}
+
+Mesh bar(int across) {
+  constexpr double kWidth = 0.2;
+  const int along = 5 * across;
+  std::map<std::array<int, 3>, int> numbers;
+  std::vector<Eigen::Vector3d> points;
+  std::vector<Eigen::Vector3i> list;
+  const auto vertex = [&](int i, int j, int k) {
+    const auto [entry, is_new] = numbers.try_emplace({i, j, k}, static_cast<int>(points.size()));
+    const double cells = across;
+    if (is_new)
+      points.emplace_back((i / cells - 0.5) * kWidth, j / (5 * cells), (k / cells - 0.5) * kWidth);
+    return entry->second;
+  };
+  // Diagonals alternate, so that no way of twisting is along them.
+  const auto add = [&](bool other_way, int a, int b, int c, int d) {
+    if (other_way)
+      add_quad(list, b, c, d, a);
+    else
+      add_quad(list, a, b, c, d);
+  };
+  for (int j = 0; j < along; ++j) {
+    for (int i = 0; i < across; ++i) {
+      const int n = across;
+      const bool odd = (i + j) % 2 != 0;
+      add(odd, vertex(i, j, n), vertex(i + 1, j, n), vertex(i + 1, j + 1, n), vertex(i, j + 1, n));
+      add(odd, vertex(i + 1, j, 0), vertex(i, j, 0), vertex(i, j + 1, 0), vertex(i + 1, j + 1, 0));
+      add(odd, vertex(n, j, i + 1), vertex(n, j, i), vertex(n, j + 1, i), vertex(n, j + 1, i + 1));
+      add(odd, vertex(0, j, i), vertex(0, j, i + 1), vertex(0, j + 1, i + 1), vertex(0, j + 1, i));
+    }
+  }
+  for (int i = 0; i < across; ++i) {
+    for (int k = 0; k < across; ++k) {
+      add_quad(list, vertex(i, 0, k), vertex(i + 1, 0, k), vertex(i + 1, 0, k + 1),
+               vertex(i, 0, k + 1));
+      add_quad(list, vertex(i, along, k + 1), vertex(i + 1, along, k + 1), vertex(i + 1, along, k),
+               vertex(i, along, k));
+    }
+  }
+  Mesh mesh{Positions(static_cast<Eigen::Index>(points.size()), 3), to_triangles(list)};
+  for (std::size_t v = 0; v < points.size(); ++v) {
+    mesh.positions.row(static_cast<Eigen::Index>(v)) = points[v].transpose();
+  }
+  return mesh;
+}
+
+Positions bent_and_twisted(const Positions& bar, double bend, double twist) {
+  Positions moved(bar.rows(), 3);
+  for (Eigen::Index v = 0; v < bar.rows(); ++v) {
+    const double along = bar(v, 1), angle = twist * along;
+    const double x = std::cos(angle) * bar(v, 0) + std::sin(angle) * bar(v, 2);
+    const double z = std::cos(angle) * bar(v, 2) - std::sin(angle) * bar(v, 0);
+    if (bend == 0) {
+      moved.row(v) << x, along, z;
+    } else {
+      const double radius = 1 / bend;
+      moved.row(v) << radius - (radius - x) * std::cos(bend * along),
+          (radius - x) * std::sin(bend * along), z;
+    }
+  }
+  return moved;
 }
 
 Mesh joined(const Mesh& a, const Mesh& b) {

@@ -19,6 +19,14 @@ Mesh torus(int rings, int segments);
 /// A flat grid in z = 0 with unit cells: columns * rows vertices, one boundary loop.
 Mesh grid(int columns, int rows);
 
+/// A closed square bar along y from 0 to 1, 0.2 wide: `across` cells a side, five times as many
+/// along.
+Mesh bar(int across);
+
+/// A bar bent and twisted along y, radians a unit of length: no part of it changes its length on
+/// the axis.
+Positions bent_and_twisted(const Positions& bar, double bend, double twist);
+
 /// Both meshes as two components of one.
 Mesh joined(const Mesh& a, const Mesh& b);
 

@@ -90,7 +90,7 @@ BakeReport bake(const Recipe& asked, const BakeOptions& options, const Observer&
 
   bake_report.vertices = mesh.connectivity.vertex_count;
   bake_report.triangles = static_cast<int>(mesh.connectivity.triangles.rows());
-  bake_report.components = timeline->system->components().count;
+  bake_report.components = timeline->states->displacements->components().count;
   bake_report.frames = static_cast<int>(frame_times(recipe.timeline).size());
   bake_report.connectivity = std::move(connected.report);
   bake_report.connectivity.vertices = bake_report.vertices;

@@ -33,6 +33,8 @@ struct OutputReport {
 
 /// How the timeline's systems were solved.
 struct SolveReport {
+  std::string representation;  ///< "laplacian", "rotation"
+  std::string representation_reason;
   std::string solver;  ///< "direct", "warm", "pcg", "gauss-seidel", "jacobi"
   std::string reason;
   int unknowns = 0;

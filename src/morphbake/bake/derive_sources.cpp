@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include <array>
+#include <numbers>
 #include <string>
 #include <utility>
 
@@ -49,6 +50,16 @@ const Eigen::VectorXd& still_distance(const Derivation& from, int region,
        "an edit needs a region that stands still");
 }
 
+/// What a movement does to the surroundings of what it moves. A stretch along one direction does
+/// nothing to them.
+void set_turn(const Movement& movement, Handle& handle) {
+  if (movement.degrees != 0) {
+    handle.turn = unit_direction(movement.axis, "axis of the handle") * movement.degrees *
+                  std::numbers::pi / 180;
+  }
+  if (!movement.scale_along && movement.scale > 0) handle.growth = movement.scale;
+}
+
 Transform transform_of(const Movement& movement, double unit) {
   Transform transform;
   transform.scale = movement.scale;
@@ -75,6 +86,7 @@ Handle region_handle(const Derivation& from, const EditHandle& handle, const std
   const Positions rest = from.shape.positions(moved.vertices, Eigen::all);
   const Transform transform = transform_of(std::get<Movement>(handle.to), from.unit);
   moved.positions = mapped(rest, map_of(transform, rest.colwise().mean().transpose()));
+  set_turn(std::get<Movement>(handle.to), moved);
   return moved;
 }
 
@@ -109,6 +121,7 @@ Handle vertex_handle(const Derivation& from, const EditHandle& handle, int verte
   } else {
     const Transform transform = transform_of(std::get<Movement>(handle.to), from.unit);
     moved.positions = mapped(rest, map_of(transform, rest.row(0).transpose()));
+    set_turn(std::get<Movement>(handle.to), moved);
   }
   return moved;
 }
@@ -125,7 +138,8 @@ Positions edited(const Derivation& from, const EditSource& edit, const Observer&
     handles.push_back(handle.region >= 0 ? region_handle(from, handle, field)
                                          : vertex_handle(from, handle, vertices[i]));
   }
-  return free_form(from.shape, fixed, handles, observer);
+  const Surroundings surroundings = edit.turns ? Surroundings::Turned : Surroundings::AsTheyAre;
+  return free_form(from.shape, fixed, handles, surroundings, observer);
 }
 
 Positions band_of(const Derivation& from, const BandSource& band, const Observer& observer) {

@@ -22,7 +22,8 @@ Positions still_positions(const SolvedRecipe& solved, const Still& still,
     return position_at(recipe, solved.mesh, solved.regions, solved.timeline, *time);
   }
   const State& state = recipe.states[static_cast<std::size_t>(std::get<int>(still.at))];
-  return solve_state(recipe, state, solved.mesh, solved.regions, options);
+  return solve_state(recipe, state, solved.mesh, solved.regions, solved.timeline.representation,
+                     options);
 }
 
 void warn_of_no_targets(const Recipe& recipe, std::size_t index, const Observer& observer) {

@@ -62,31 +62,37 @@ TurntableOptions turntable_of(const PreviewRequest& request, const BakeOptions& 
   return look;
 }
 
-std::vector<fs::path> stage_previews(const PreviewPaths& paths, const TurntableOptions& look,
-                                     const std::vector<PreviewFormat>& formats,
-                                     const Observer& observer, PendingOutputs& outputs) {
-  const std::vector<Image> frames = render(paths, look, observer);
+std::vector<fs::path> stage_loop(const std::vector<Image>& frames, const fs::path& stem,
+                                 const std::vector<PreviewFormat>& formats,
+                                 const SheetLayout& sheet, PendingOutputs& outputs) {
   std::vector<fs::path> files;
   for (const PreviewFormat format : formats) {
     switch (format) {
       case PreviewFormat::Png:
         for (std::size_t f = 0; f < frames.size(); ++f) {
-          files.push_back(with_suffix(paths.stem, ".frames") / fmt::format("{:04d}.png", f));
+          files.push_back(with_suffix(stem, ".frames") / fmt::format("{:04d}.png", f));
           outputs.stage(files.back(), encode_png(frames[f]));
         }
         break;
       case PreviewFormat::Gif:
-        files.push_back(with_suffix(paths.stem, ".gif"));
+        files.push_back(with_suffix(stem, ".gif"));
         write_gif(outputs.stage_external(files.back()), frames, kFramesPerSecond);
         break;
       case PreviewFormat::Sheet:
-        files.push_back(with_suffix(paths.stem, ".sheet.png"));
-        outputs.stage(files.back(), encode_png(contact_sheet(sheet_pictures(frames), kSheetColumns,
-                                                             look.width / 2)));
+        files.push_back(with_suffix(stem, ".sheet.png"));
+        outputs.stage(files.back(), encode_png(contact_sheet(sheet_pictures(frames), sheet.columns,
+                                                             sheet.cell_width)));
         break;
     }
   }
   return files;
+}
+
+std::vector<fs::path> stage_previews(const PreviewPaths& paths, const TurntableOptions& look,
+                                     const std::vector<PreviewFormat>& formats,
+                                     const Observer& observer, PendingOutputs& outputs) {
+  return stage_loop(render(paths, look, observer), paths.stem, formats,
+                    {.columns = kSheetColumns, .cell_width = look.width / 2}, outputs);
 }
 
 std::vector<fs::path> preview(const PreviewPaths& paths, const PreviewRequest& request,

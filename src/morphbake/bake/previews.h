@@ -6,6 +6,7 @@
 #include "morphbake/bake/options.h"
 #include "morphbake/diagnostics/observer.h"
 #include "morphbake/files/files.h"
+#include "morphbake/images/images.h"
 #include "morphbake/preview/turntable.h"
 #include "morphbake/recipe/recipe.h"
 
@@ -22,6 +23,21 @@ struct PreviewPaths {
 
 /// The look of a recipe's turntable.
 TurntableOptions turntable_of(const PreviewRequest& request, const BakeOptions& options);
+
+/// How pictures are put on a contact sheet.
+struct SheetLayout {
+  int columns = 1;
+  int cell_width = 1;  ///< pixels
+};
+
+/// Stages stem.gif, stem.sheet.png (a dozen of the pictures) and stem.frames/0000.png ...
+///
+/// @param frames  of a loop, one or more of one size
+/// @return  the final names of the staged files
+std::vector<std::filesystem::path> stage_loop(const std::vector<Image>& frames,
+                                              const std::filesystem::path& stem,
+                                              const std::vector<PreviewFormat>& formats,
+                                              const SheetLayout& sheet, PendingOutputs& outputs);
 
 /// Renders what the file holds and stages stem.gif, stem.sheet.png and stem.frames/0000.png ...
 ///

@@ -47,7 +47,9 @@ Json to_json(const SolveRecord& record) {
 Json to_json(const SolveReport& solve) {
   Json solves = Json::array();
   for (const SolveRecord& record : solve.solves) solves.push_back(to_json(record));
-  return {{"solver", solve.solver},
+  return {{"representation", solve.representation},
+          {"representation_reason", solve.representation_reason},
+          {"solver", solve.solver},
           {"reason", solve.reason},
           {"unknowns", solve.unknowns},
           {"held", solve.held},

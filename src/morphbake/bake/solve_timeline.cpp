@@ -168,14 +168,33 @@ ConstraintRequest requested_constraints(const Recipe& recipe, const MorphableMes
 std::unique_ptr<DisplacementSystem> make_system(const Recipe& recipe, const MorphableMesh& mesh,
                                                 const RegionFields& regions,
                                                 const TimelineChanges& changes,
-                                                RightHandSide rule) {
+                                                const SolveOptions& options) {
   const Components components = connected_components(one_rings(mesh.connectivity));
   Constraints constraints = choose_constraints(
       mesh, components, changes.untouched, requested_constraints(recipe, mesh, regions, changes));
   // The anchor is the paper's, whose right-hand side is eq. 6.
   const bool is_anchored = recipe.gauge.kind == Gauge::Kind::Anchor;
-  return std::make_unique<DisplacementSystem>(mesh, std::move(constraints),
-                                              is_anchored ? RightHandSide::Vertex : rule);
+  return std::make_unique<DisplacementSystem>(
+      mesh, std::move(constraints), is_anchored ? RightHandSide::Vertex : options.right_hand_side);
+}
+
+StateSystem make_states(const MorphableMesh& mesh, const Shares& reference,
+                        const RepresentationChoice& choice,
+                        std::unique_ptr<DisplacementSystem> system, const SolveOptions& options,
+                        const Observer& observer) {
+  switch (choice.representation) {
+    case Representation::Rotation:
+      return rotation_states(mesh, choice.deformations, reference, std::move(system), options,
+                             observer);
+    case Representation::Affine:
+      return affine_states(mesh, reference, std::move(system));
+    case Representation::Absolute:
+      return absolute_states(mesh, reference, std::move(system));
+    case Representation::Rigid:
+      return rigid_states(mesh, reference, std::move(system));
+    default:
+      return laplacian_states(mesh, reference, std::move(system));
+  }
 }
 
 /// Refuses targets that are shapes, for a reason: without shapes there are only frames.
@@ -217,10 +236,18 @@ void check_still_regions(const Recipe& recipe, const RegionFields& regions) {
   if (!problems.empty()) throw BakeError(std::move(problems));
 }
 
+/// The options, with every frame solved where there is no other way.
+SolveOptions options_for(Representation representation, const TimelineChanges& changes,
+                         SolveOptions options) {
+  options.every_frame =
+      options.every_frame || !changes.separable || representation != Representation::Laplacian;
+  return options;
+}
+
 /// The timeline as shapes, where it is made of them, once all is checked.
 std::optional<SeparableTimeline> shapes_of(const Recipe& recipe, const RegionFields& regions,
-                                           Eigen::Index count, const SolveOptions& options,
-                                           const Observer& observer) {
+                                           Eigen::Index count, Representation representation,
+                                           const SolveOptions& options, const Observer& observer) {
   check_still_regions(recipe, regions);
   if (options.every_frame) {
     refuse_tracks(recipe, "the option /solve/every_frame solves frames instead");
@@ -228,6 +255,10 @@ std::optional<SeparableTimeline> shapes_of(const Recipe& recipe, const RegionFie
   if (!is_separable(recipe, regions)) {
     refuse_tracks(recipe, "here a region moves or floods, so every frame is another");
     return std::nullopt;
+  }
+  if (representation != Representation::Laplacian) {
+    refuse_tracks(recipe, fmt::format("the representation \"{}\" solves every frame",
+                                      name_of(representation)));
   }
   std::optional<SeparableTimeline> separable = separate_timeline(recipe, regions, count);
   if (separable) return separable;
@@ -260,7 +291,7 @@ using ImbalanceAt = std::function<Eigen::RowVector3d(double time)>;
 
 ImbalanceAt imbalance_of(const Recipe& recipe, const SolvedTimeline& solved,
                          const TimelineChanges& changes, int component) {
-  const DisplacementSystem& system = *solved.system;
+  const DisplacementSystem& system = *solved.states->displacements;
   if (!solved.separable) {
     return [&system, &changes, component](double time) -> Eigen::RowVector3d {
       return system.goal(changes.at(time)).imbalance.row(component);
@@ -285,9 +316,11 @@ ImbalanceAt imbalance_of(const Recipe& recipe, const SolvedTimeline& solved,
 void warn_of_spike(const Recipe& recipe, const MorphableMesh& mesh, const SolvedTimeline& solved,
                    const TimelineChanges& changes, const Observer& observer) {
   int anchor = -1;
-  for (const int each : solved.system->constraints().anchor) anchor = std::max(anchor, each);
+  for (const int each : solved.states->displacements->constraints().anchor)
+    anchor = std::max(anchor, each);
   if (anchor < 0) return;
-  const int component = solved.system->components().label[static_cast<std::size_t>(anchor)];
+  const int component =
+      solved.states->displacements->components().label[static_cast<std::size_t>(anchor)];
   const ImbalanceAt imbalance_at = imbalance_of(recipe, solved, changes, component);
   double largest = 0, when = 0;
   for (const double time : frame_times(recipe.timeline)) {
@@ -309,8 +342,10 @@ void warn_of_spike(const Recipe& recipe, const MorphableMesh& mesh, const Solved
 }
 
 SolveReport report_of(const SolvedTimeline& solved, std::vector<SolveRecord> records) {
-  const DisplacementSystem& system = *solved.system;
+  const DisplacementSystem& system = *solved.states->displacements;
   SolveReport report;
+  report.representation = name_of(solved.representation.representation);
+  report.representation_reason = solved.representation.reason;
   report.solver = name_of(solved.solver->choice().solver);
   report.reason = solved.solver->choice().reason;
   report.unknowns = static_cast<int>(system.equations().matrix.rows());
@@ -328,10 +363,13 @@ SolveReport report_of(const SolvedTimeline& solved, std::vector<SolveRecord> rec
 void check_timeline(const Recipe& recipe, const MorphableMesh& mesh, const RegionFields& regions,
                     const SolveOptions& options, const Observer& observer) {
   const Eigen::Index count = mesh.connectivity.vertex_count;
-  const TimelineChanges changes = changes_of(
-      recipe, regions, count, shapes_of(recipe, regions, count, options, observer), observer);
-  const auto system = make_system(recipe, mesh, regions, changes, options.right_hand_side);
-  choose_solver(*system, options);
+  const Representation representation =
+      choose_representation(recipe, mesh, observer).representation;
+  const TimelineChanges changes =
+      changes_of(recipe, regions, count,
+                 shapes_of(recipe, regions, count, representation, options, observer), observer);
+  choose_solver(*make_system(recipe, mesh, regions, changes, options),
+                options_for(representation, changes, options));
 }
 
 std::unique_ptr<SolvedTimeline> solve_timeline(const Recipe& recipe, const MorphableMesh& mesh,
@@ -339,21 +377,34 @@ std::unique_ptr<SolvedTimeline> solve_timeline(const Recipe& recipe, const Morph
                                                const SolveOptions& options,
                                                const Observer& observer) {
   const Eigen::Index count = mesh.connectivity.vertex_count;
-  TimelineChanges changes = changes_of(
-      recipe, regions, count, shapes_of(recipe, regions, count, options, observer), observer);
   auto solved = std::make_unique<SolvedTimeline>();
-  solved->reference = changes.reference;
-  solved->system = make_system(recipe, mesh, regions, changes, options.right_hand_side);
+  solved->representation = choose_representation(recipe, mesh, observer);
+  const Representation representation = solved->representation.representation;
+  TimelineChanges changes =
+      changes_of(recipe, regions, count,
+                 shapes_of(recipe, regions, count, representation, options, observer), observer);
+  solved->states = std::make_unique<StateSystem>(
+      make_states(mesh, changes.reference, solved->representation,
+                  make_system(recipe, mesh, regions, changes, options), options, observer));
+  const SolveOptions solving = options_for(representation, changes, options);
+  const StateSystem& states = *solved->states;
   solved->separable = std::move(changes.separable);
-  solved->solver = std::make_unique<SurfaceSolver>(*solved->system, options, observer);
+  solved->solver = std::make_unique<SurfaceSolver>(*states.displacements, solving, observer);
   std::vector<SolveRecord> records;
-  if (solved->separable && !options.every_frame) {
+  if (!solving.every_frame) {
     solved->shapes = solve_fields(*solved->solver, mesh, *solved->separable, observer);
     solved->frames = combined_frames(solved->shapes, *solved->separable, recipe.timeline);
     records = solved->shapes.records;
   } else {
-    SolvedFrames frames = solved_frames(*solved->solver, mixed_positions(mesh, solved->reference),
-                                        frame_times(recipe.timeline), changes.at, observer);
+    const auto goals_at = [&](std::span<const double> times) {
+      std::vector<TransitionState> moments;
+      for (const double time : times) {
+        moments.push_back(transition_at(recipe, regions, count, time));
+      }
+      return states.goals(moments);
+    };
+    SolvedFrames frames = solved_frames(*solved->solver, states.rest, frame_times(recipe.timeline),
+                                        goals_at, observer);
     solved->frames = std::move(frames.source);
     records = std::move(frames.records);
   }
@@ -369,23 +420,25 @@ Positions position_at(const Recipe& recipe, const MorphableMesh& mesh, const Reg
                           field_coefficients(recipe.timeline, *solved.separable, time));
   }
   const Eigen::Index count = mesh.connectivity.vertex_count;
-  const Eigen::MatrixXd change =
-      transition_at(recipe, regions, count, time) - uniform_transition(solved.reference, count);
   std::vector<SolveRecord> records;
-  return mixed_positions(mesh, solved.reference) +
-         solve_change(*solved.solver, change, "", records);
+  return solved.states->rest +
+         solve_goal(*solved.solver,
+                    solved.states->goal(transition_at(recipe, regions, count, time)), "", records);
 }
 
 Positions solve_state(const Recipe& recipe, const State& state, const MorphableMesh& mesh,
-                      const RegionFields& regions, const SolveOptions& options) {
+                      const RegionFields& regions, const RepresentationChoice& representation,
+                      const SolveOptions& options) {
   const Eigen::Index count = mesh.connectivity.vertex_count;
   const TimelineChanges changes = changes_of_fields(separate_state(state, regions, count));
-  const auto system = make_system(recipe, mesh, regions, changes, options.right_hand_side);
   const Observer nobody;
-  const SurfaceSolver solver(*system, options, nobody);
+  const StateSystem states =
+      make_states(mesh, changes.reference, representation,
+                  make_system(recipe, mesh, regions, changes, options), options, nobody);
+  const SurfaceSolver solver(*states.displacements, options, nobody);
   std::vector<SolveRecord> records;
-  return mixed_positions(mesh, changes.reference) +
-         solve_change(solver, changes.separable->fields[0].change, state.name, records);
+  return states.rest + solve_goal(solver, states.goal(state_transition(state, regions, count)),
+                                  state.name, records);
 }
 
 }  // namespace morphbake

@@ -4,16 +4,17 @@
 #include <optional>
 
 #include "morphbake/bake/bake.h"
+#include "morphbake/bake/choose_representation.h"
 #include "morphbake/solve/frame_source.h"
+#include "morphbake/solve/state_system.h"
 
 namespace morphbake {
 
-/// A timeline, solved: its shapes where it is separable, else or with `every_frame` its frames
-/// alone.
+/// A timeline, solved: its shapes where it is made of them, else its frames alone.
 struct SolvedTimeline {
-  Shares reference;                            ///< what displacements start from
+  RepresentationChoice representation;
   std::optional<SeparableTimeline> separable;  ///< none when regions move or flood, or too many
-  std::unique_ptr<DisplacementSystem> system;
+  std::unique_ptr<StateSystem> states;
   std::unique_ptr<SurfaceSolver> solver;
   SolvedShapes shapes;  ///< empty when frames were solved
   FrameSource frames;
@@ -44,6 +45,7 @@ Positions position_at(const Recipe& recipe, const MorphableMesh& mesh, const Reg
 ///
 /// @return #V by 3, scene space
 Positions solve_state(const Recipe& recipe, const State& state, const MorphableMesh& mesh,
-                      const RegionFields& regions, const SolveOptions& options);
+                      const RegionFields& regions, const RepresentationChoice& representation,
+                      const SolveOptions& options);
 
 }  // namespace morphbake

@@ -14,6 +14,7 @@
 #include "morphbake/correspondence/sphere_layout.h"
 #include "morphbake/correspondence/spherical_map.h"
 #include "morphbake/diagnostics/problem.h"
+#include "morphbake/mesh/measures.h"
 
 namespace morphbake {
 namespace {
@@ -86,24 +87,13 @@ std::vector<CappedSurface> cap_all(const std::vector<SourceSurface>& sources,
   return capped;
 }
 
-/// Six times the volume within, negative when triangles face inwards; of a disk it means nothing.
-double volume_of(const Mesh& mesh) {
-  const Eigen::RowVector3d centre = mesh.positions.colwise().mean();
-  double sum = 0;
-  for (Eigen::Index f = 0; f < mesh.triangles.rows(); ++f) {
-    Eigen::Matrix3d corners;
-    for (int k = 0; k < 3; ++k) {
-      corners.row(k) = mesh.positions.row(mesh.triangles(f, k)) - centre;
-    }
-    sum += corners.determinant();
-  }
-  return sum;
-}
-
 /// The one of two closed surfaces that is inside out, which makes it look mirrored; null when that
 /// is neither or both.
 const SourceSurface* inside_out(const SourceSurface& first, const SourceSurface& other) {
-  const bool is_first = volume_of(first.mesh) < 0, is_other = volume_of(other.mesh) < 0;
+  const auto is_turned = [](const Mesh& mesh) {
+    return enclosed_volume(mesh.positions, mesh.triangles) < 0;
+  };
+  const bool is_first = is_turned(first.mesh), is_other = is_turned(other.mesh);
   if (is_first == is_other) return nullptr;
   return is_first ? &first : &other;
 }

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "morphbake/export/mesh_morph.h"
+#include "morphbake/gltf/morphed_rows.h"
 
 namespace morphbake {
 namespace {
@@ -46,17 +47,6 @@ struct AngleHistogram {
     return 0;
   }
 };
-
-/// Base plus weighted targets of one attribute, in double from the written floats.
-Positions evaluate(const Float3s& base, const std::vector<Float3s>& targets,
-                   const Eigen::VectorXd& weights) {
-  Positions rows = base.cast<double>();
-  for (std::size_t k = 0; k < targets.size(); ++k) {
-    const double weight = weights(static_cast<Eigen::Index>(k));
-    if (weight != 0 && targets[k].rows() > 0) rows += weight * targets[k].cast<double>();
-  }
-  return rows;
-}
 
 std::vector<double> frames_and_middles(const std::vector<double>& frame_times) {
   std::vector<double> times;
@@ -100,9 +90,9 @@ MomentError measure_moment(const Comparison& compared, const Positions& expected
   };
   std::size_t render = 0;
   for (const AnimatedPrimitive& primitive : written.primitives) {
-    const Positions positions = evaluate(primitive.positions, primitive.target_positions, w);
+    const Positions positions = morphed_rows(primitive.positions, primitive.target_positions, w);
     Positions normals;
-    if (groups.count > 0) normals = evaluate(primitive.normals, primitive.target_normals, w);
+    if (groups.count > 0) normals = morphed_rows(primitive.normals, primitive.target_normals, w);
     for (Eigen::Index r = 0; r < positions.rows(); ++r, ++render) {
       const int vertex = compared.mesh.vertex_of_render[render];
       if (vertex < 0) continue;

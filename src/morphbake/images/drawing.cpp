@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <string_view>
+#include <vector>
 
 namespace morphbake {
 namespace {
@@ -140,6 +141,21 @@ void draw_line(Image& image, const Eigen::Vector2f& from, const Eigen::Vector2f&
 Eigen::Vector2i text_size(std::string_view text, int scale) {
   const auto letters = static_cast<int>(std::count_if(text.begin(), text.end(), begins_letter));
   return {std::max(0, letters * kAdvance - 1) * scale, kLetterHeight * scale};
+}
+
+std::string fitted_text(const std::string& text, int width, int scale) {
+  if (text_size(text, scale).x() <= width) return text;
+  std::vector<std::size_t> letters;  // where they begin
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    if (begins_letter(text[i])) letters.push_back(i);
+  }
+  for (std::size_t kept = letters.size(); kept-- > 0;) {
+    const std::size_t at_end = kept / 2;
+    const std::string shown = text.substr(0, letters[kept - at_end]) + "..." +
+                              (at_end == 0 ? "" : text.substr(letters[letters.size() - at_end]));
+    if (text_size(shown, scale).x() <= width) return shown;
+  }
+  return "";
 }
 
 void draw_text(Image& image, std::string_view text, const Eigen::Vector2i& corner, int scale,

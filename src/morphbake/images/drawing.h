@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <array>
 #include <cstdint>
+#include <string>
 #include <string_view>
 
 #include "morphbake/images/images.h"
@@ -37,6 +38,12 @@ void draw_line(Image& image, const Eigen::Vector2f& from, const Eigen::Vector2f&
 /// Size of a text in pixels: letters of 5 by 7, one apart, times `scale`. What is no printable
 /// ASCII counts one letter a code point and is drawn as "?".
 Eigen::Vector2i text_size(std::string_view text, int scale);
+
+/// `text` as it is where that is at most `width` pixels wide, else with "..." for as little of its
+/// middle as need be: what tells names apart stands at their ends.
+///
+/// @return  empty when there is not even room for "..."
+std::string fitted_text(const std::string& text, int width, int scale);
 
 /// Draws a text.
 ///

@@ -3,7 +3,9 @@
 #include <cholmod.h>
 #include <fmt/core.h>
 
-#include <utility>
+#include <memory>
+#include <span>
+#include <vector>
 
 #include "morphbake/diagnostics/problem.h"
 
@@ -43,17 +45,6 @@ struct Workspace {
   }
 };
 
-cholmod_dense dense_view(Eigen::MatrixXd& columns) {
-  cholmod_dense view{};
-  view.nrow = view.d = static_cast<std::size_t>(columns.rows());
-  view.ncol = static_cast<std::size_t>(columns.cols());
-  view.nzmax = static_cast<std::size_t>(columns.size());
-  view.x = columns.data();
-  view.xtype = CHOLMOD_REAL;
-  view.dtype = CHOLMOD_DOUBLE;
-  return view;
-}
-
 /// View of a matrix of which only the upper triangle is stored.
 cholmod_sparse upper_view(Eigen::SparseMatrix<double>& upper) {
   cholmod_sparse view{};
@@ -70,90 +61,88 @@ cholmod_sparse upper_view(Eigen::SparseMatrix<double>& upper) {
   return view;
 }
 
+/// Rows of the system that are factored: all but the first of each singular block.
+std::vector<int> free_rows(const SymmetricSystem& system) {
+  std::vector<bool> is_grounded(static_cast<std::size_t>(system.singular_block_count), false);
+  std::vector<int> rows;
+  for (std::size_t row = 0; row < system.singular_block.size(); ++row) {
+    const int block = system.singular_block[row];
+    const bool grounds = block >= 0 && !is_grounded[static_cast<std::size_t>(block)];
+    if (grounds) is_grounded[static_cast<std::size_t>(block)] = true;
+    if (!grounds) rows.push_back(static_cast<int>(row));
+  }
+  return rows;
+}
+
+/// The upper triangle of the free rows and columns.
+Eigen::SparseMatrix<double> upper_of(const Eigen::SparseMatrix<double>& matrix,
+                                     const std::vector<int>& free) {
+  std::vector<int> number(static_cast<std::size_t>(matrix.rows()), -1);
+  for (std::size_t i = 0; i < free.size(); ++i) {
+    number[static_cast<std::size_t>(free[i])] = static_cast<int>(i);
+  }
+  std::vector<Eigen::Triplet<double>> entries;
+  entries.reserve(static_cast<std::size_t>(matrix.nonZeros()) / 2 + free.size());
+  for (int column = 0; column < matrix.outerSize(); ++column) {
+    const int to = number[static_cast<std::size_t>(column)];
+    for (Eigen::SparseMatrix<double>::InnerIterator entry(matrix, column); entry; ++entry) {
+      const int from = number[static_cast<std::size_t>(entry.row())];
+      if (from >= 0 && to >= 0 && from <= to) entries.emplace_back(from, to, entry.value());
+    }
+  }
+  const auto count = static_cast<Eigen::Index>(free.size());
+  Eigen::SparseMatrix<double> upper(count, count);
+  upper.setFromTriplets(entries.begin(), entries.end());
+  return upper;
+}
+
+template <class Scalar>
+PackedFactor<Scalar> packed(const cholmod_factor& factor, const std::vector<int>& free,
+                            std::size_t row_count) {
+  const auto integers = [](const void* first, std::size_t count) {
+    return std::span<const int>(static_cast<const int*>(first), count);
+  };
+  std::vector<int> order;
+  for (const int row : integers(factor.Perm, factor.n)) {
+    order.push_back(free[static_cast<std::size_t>(row)]);
+  }
+  return PackedFactor<Scalar>(
+      {integers(factor.super, factor.nsuper + 1), integers(factor.pi, factor.nsuper + 1),
+       integers(factor.px, factor.nsuper + 1), integers(factor.s, factor.ssize),
+       static_cast<const double*>(factor.x), order, row_count});
+}
+
 }  // namespace
 
-struct CholeskyFactor::Cholmod {
-  Workspace workspace;
-  cholmod_factor* factor = nullptr;
-  std::vector<int> free_row;  ///< row of the system -> row of the factored matrix, or -1
-  int free_count = 0;
-
-  Cholmod() = default;
-  Cholmod(const Cholmod&) = delete;
-  Cholmod& operator=(const Cholmod&) = delete;
-
-  ~Cholmod() {
-    if (factor != nullptr) cholmod_free_factor(&factor, &workspace.common);
-  }
-
-  void ground_blocks(const SymmetricSystem& system) {
-    std::vector<bool> is_grounded(static_cast<std::size_t>(system.singular_block_count), false);
-    for (const int block : system.singular_block) {
-      const bool grounds = block >= 0 && !is_grounded[static_cast<std::size_t>(block)];
-      free_row.push_back(grounds ? -1 : free_count++);
-      if (grounds) is_grounded[static_cast<std::size_t>(block)] = true;
-    }
-  }
-
-  Eigen::SparseMatrix<double> upper_of(const Eigen::SparseMatrix<double>& matrix) const {
-    std::vector<Eigen::Triplet<double>> entries;
-    entries.reserve(static_cast<std::size_t>(matrix.nonZeros()) / 2 + free_row.size());
-    for (int column = 0; column < matrix.outerSize(); ++column) {
-      const int to = free_row[static_cast<std::size_t>(column)];
-      for (Eigen::SparseMatrix<double>::InnerIterator entry(matrix, column); entry; ++entry) {
-        const int from = free_row[static_cast<std::size_t>(entry.row())];
-        if (from >= 0 && to >= 0 && from <= to) entries.emplace_back(from, to, entry.value());
-      }
-    }
-    Eigen::SparseMatrix<double> upper(free_count, free_count);
-    upper.setFromTriplets(entries.begin(), entries.end());
-    return upper;
-  }
-};
-
-CholeskyFactor::CholeskyFactor(CholeskyFactor&&) noexcept = default;
-CholeskyFactor& CholeskyFactor::operator=(CholeskyFactor&&) noexcept = default;
-CholeskyFactor::~CholeskyFactor() = default;
-
-CholeskyFactor::CholeskyFactor(const SymmetricSystem& system)
-    : cholmod_(std::make_unique<Cholmod>()) {
+CholeskyFactor::CholeskyFactor(const SymmetricSystem& system, Precision precision) {
   // With several threads OpenBLAS splits sums by their number, and so would the bytes differ.
   openblas_set_num_threads(1);
-  cholmod_->ground_blocks(system);
-  if (cholmod_->free_count == 0) return;  // nothing is unknown, which CHOLMOD does not take
-  Eigen::SparseMatrix<double> upper = cholmod_->upper_of(system.matrix);
+  const std::vector<int> free = free_rows(system);
+  if (free.empty()) return;  // nothing is unknown, which CHOLMOD does not take
+  Eigen::SparseMatrix<double> upper = upper_of(system.matrix, free);
   cholmod_sparse view = upper_view(upper);
-  cholmod_common& common = cholmod_->workspace.common;
-  cholmod_->factor = cholmod_analyze(&view, &common);
-  cholmod_->workspace.check(cholmod_->factor != nullptr, "analysed");
-  const bool succeeded = cholmod_factorize(&view, cholmod_->factor, &common) != 0;
-  cholmod_->workspace.check(succeeded, "factorised");
+  Workspace workspace;
+  cholmod_factor* made = cholmod_analyze(&view, &workspace.common);
+  const auto release = [&workspace](cholmod_factor* factor) {
+    cholmod_free_factor(&factor, &workspace.common);
+  };
+  const std::unique_ptr<cholmod_factor, decltype(release)> factor(made, release);
+  workspace.check(made != nullptr, "analysed");
+  workspace.check(cholmod_factorize(&view, made, &workspace.common) != 0, "factorised");
+  const std::size_t row_count = system.singular_block.size();
+  if (precision == Precision::Single) {
+    packed_ = packed<float>(*made, free, row_count);
+  } else {
+    packed_ = packed<double>(*made, free, row_count);
+  }
 }
 
 Eigen::MatrixXd CholeskyFactor::solve(const Eigen::MatrixXd& b) const {
-  const std::vector<int>& free_row = cholmod_->free_row;
-  if (cholmod_->free_count == 0) return Eigen::MatrixXd::Zero(b.rows(), b.cols());
-  Eigen::MatrixXd free_b(cholmod_->free_count, b.cols());
-  for (std::size_t row = 0; row < free_row.size(); ++row) {
-    if (free_row[row] >= 0) free_b.row(free_row[row]) = b.row(static_cast<Eigen::Index>(row));
-  }
-  Workspace workspace;
-  cholmod_dense view = dense_view(free_b);
-  cholmod_dense* solution = cholmod_solve(CHOLMOD_A, cholmod_->factor, &view, &workspace.common);
-  workspace.check(solution != nullptr, "solved");
-  const Eigen::Map<const Eigen::MatrixXd> free_x(static_cast<const double*>(solution->x),
-                                                 free_b.rows(), free_b.cols());
-  Eigen::MatrixXd x = Eigen::MatrixXd::Zero(b.rows(), b.cols());
-  for (std::size_t row = 0; row < free_row.size(); ++row) {
-    if (free_row[row] >= 0) x.row(static_cast<Eigen::Index>(row)) = free_x.row(free_row[row]);
-  }
-  cholmod_free_dense(&solution, &workspace.common);
-  return x;
+  return std::visit([&b](const auto& packed) { return packed.solve(b); }, packed_);
 }
 
 std::size_t CholeskyFactor::bytes() const {
-  if (cholmod_->factor == nullptr) return 0;
-  return cholmod_->factor->xsize * sizeof(double) + cholmod_->factor->ssize * sizeof(int);
+  return std::visit([](const auto& packed) { return packed.bytes(); }, packed_);
 }
 
 }  // namespace morphbake

@@ -39,6 +39,20 @@ Eigen::VectorXd vertex_areas(const Positions& positions, const Triangles& triang
   return areas;
 }
 
+double enclosed_volume(const Positions& positions, const Triangles& triangles) {
+  if (triangles.rows() == 0) return 0;
+  // From a point of the surface: from a far origin, large tetrahedra would cancel each other.
+  const Eigen::RowVector3d tip = positions.row(triangles(0, 0));
+  double six_fold = 0;
+  for (int f = 0; f < triangles.rows(); ++f) {
+    const Eigen::RowVector3d a = positions.row(triangles(f, 0)) - tip;
+    const Eigen::RowVector3d b = positions.row(triangles(f, 1)) - tip;
+    const Eigen::RowVector3d c = positions.row(triangles(f, 2)) - tip;
+    six_fold += a.dot(b.cross(c));
+  }
+  return six_fold / 6;
+}
+
 double largest_distance(const Positions& a, const Positions& b) {
   if (a.rows() == 0) return 0;
   return std::sqrt((a - b).rowwise().squaredNorm().maxCoeff());

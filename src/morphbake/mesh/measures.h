@@ -18,6 +18,10 @@ Eigen::VectorXd vertex_areas(const Positions& positions, const Triangles& triang
 /// One a triangle.
 Eigen::VectorXd triangle_areas(const Positions& positions, const Triangles& triangles);
 
+/// Volume within a closed surface, negative when its triangles face inwards; parts that are wound
+/// round twice count twice. Of an open surface it is that of the cone from its first vertex.
+double enclosed_volume(const Positions& positions, const Triangles& triangles);
+
 /// The largest distance between equal rows.
 double largest_distance(const Positions& a, const Positions& b);
 

@@ -11,6 +11,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "morphbake/diagnostics/problem.h"
 #include "morphbake/preview/pose.h"
@@ -49,8 +50,9 @@ Eigen::AlignedBox3d bounds_of(const std::vector<PosedPrimitive>& poses) {
   return bounds;
 }
 
-[[noreturn]] void fail_not_finite(std::size_t moment) {
+[[noreturn]] void fail_not_finite(const std::string& file, std::size_t moment) {
   Problem problem;
+  problem.location.file = file;
   problem.code = "preview.not-finite";
   problem.message = fmt::format("picture {} has a vertex that is infinite or not a number", moment);
   problem.hint = "check the morph targets and weights of the file";
@@ -71,8 +73,9 @@ Eigen::Affine3d to_scene_axes(const AnimatedMesh& mesh) {
 }
 
 /// Bounds of every moment, as to_scene_axes.
-std::vector<Eigen::AlignedBox3d> moment_bounds(const AnimatedMesh& mesh,
-                                               const std::vector<LoopMoment>& moments) {
+std::vector<Eigen::AlignedBox3d> moment_bounds(const FramedMotion& motion) {
+  const AnimatedMesh& mesh = motion.mesh;
+  const std::vector<LoopMoment>& moments = motion.moments;
   std::vector<Eigen::AlignedBox3d> bounds(moments.size());
   std::vector<char> finite(moments.size());
   const Eigen::Affine3d to_scene = to_scene_axes(mesh);
@@ -83,16 +86,26 @@ std::vector<Eigen::AlignedBox3d> moment_bounds(const AnimatedMesh& mesh,
     bounds[i] = bounds_of(poses);
   });
   const auto bad = std::find(finite.begin(), finite.end(), 0);
-  if (bad != finite.end()) fail_not_finite(static_cast<std::size_t>(bad - finite.begin()));
+  if (bad != finite.end())
+    fail_not_finite(motion.file, static_cast<std::size_t>(bad - finite.begin()));
   return bounds;
 }
 
 /// Moves the middle of the whole motion to the origin and scales it into the unit sphere.
-Eigen::Affine3d table_transform(const AnimatedMesh& mesh, const Eigen::AlignedBox3d& all) {
+///
+/// @param shift  was already added to `all`
+Eigen::Affine3d table_transform(const AnimatedMesh& mesh, const Eigen::Vector3d& shift,
+                                const Eigen::AlignedBox3d& all) {
   if (all.isEmpty()) return to_scene_axes(mesh);
   const double radius = all.diagonal().norm() / 2;
   const double scale = radius > 0 ? 1 / radius : 1;
-  return Eigen::Scaling(scale) * Eigen::Translation3d(-all.center()) * to_scene_axes(mesh);
+  return Eigen::Scaling(scale) * Eigen::Translation3d(shift - all.center()) * to_scene_axes(mesh);
+}
+
+/// Moves the middle of a box's lower side to the origin.
+Eigen::Vector3d shift_to_ground(const Eigen::AlignedBox3d& box) {
+  if (box.isEmpty()) return Eigen::Vector3d::Zero();
+  return {-box.center().x(), -box.min().y(), -box.center().z()};
 }
 
 using Silhouette = std::vector<Eigen::Vector3d>;  ///< view axes: right, up, towards the camera
@@ -179,17 +192,16 @@ Eigen::Matrix3d view_axes(double elevation) {
   return view;
 }
 
-std::vector<Silhouette> silhouettes_of(const AnimatedMesh& mesh,
-                                       const std::vector<LoopMoment>& moments,
-                                       const Framing& framing, const Eigen::Matrix3d& view,
-                                       double half_height) {
+std::vector<Silhouette> silhouettes_of(const FramedMotion& motion, const Framing& framing,
+                                       const Eigen::Matrix3d& view, double half_height) {
+  const std::vector<LoopMoment>& moments = motion.moments;
   const double typical = 1 / half_height;
   const std::array<double, 4> distances{std::max(1.05, 0.8 * typical), std::max(1.1, typical),
                                         std::max(1.2, 1.3 * typical), std::max(1.5, 1.8 * typical)};
   std::vector<Silhouette> silhouettes(moments.size());
   tbb::parallel_for(std::size_t{0}, moments.size(), [&](std::size_t i) {
     std::vector<PosedPrimitive> poses;
-    pose_mesh(mesh, moments[i].weights, mesh_to_studio(framing, moments[i].azimuth), poses);
+    pose_mesh(motion.mesh, moments[i].weights, mesh_to_studio(framing, moments[i].azimuth), poses);
     silhouettes[i] = silhouette_of(poses, view, distances);
   });
   return silhouettes;
@@ -201,10 +213,61 @@ std::vector<float> floor_heights(const std::vector<Eigen::AlignedBox3d>& bounds,
   std::vector<float> floors(bounds.size(), 0.0f);
   if (!(radius > 0)) return floors;
   for (std::size_t i = 0; i < bounds.size(); ++i) {
-    const double lowest = follows ? bounds[i].min().y() : all.min().y();
+    const double lowest = follows && !bounds[i].isEmpty() ? bounds[i].min().y() : all.min().y();
     floors[i] = static_cast<float>((lowest - all.center().y()) / radius);
   }
   return floors;
+}
+
+/// The camera whose pictures all silhouettes fill and fit into.
+Camera camera_for(const std::vector<Silhouette>& silhouettes, bool has_extent,
+                  const Eigen::Matrix3d& view, const Eigen::Vector2d& picture, double fill) {
+  const double distance = has_extent ? fitting_distance(silhouettes, picture, fill) : 5.0;
+  Camera camera;
+  camera.position = (view.row(2).transpose() * distance).cast<float>();
+  camera.right = view.row(0).transpose().cast<float>();
+  camera.up = view.row(1).transpose().cast<float>();
+  camera.forward = -view.row(2).transpose().cast<float>();
+  camera.half_width = static_cast<float>(picture.x() / 2);
+  camera.half_height = static_cast<float>(picture.y() / 2);
+  if (has_extent) {
+    const Coverage coverage = coverage_at(silhouettes, distance, picture);
+    camera.shift = ((coverage.all.low + coverage.all.high) / 2).cast<float>();
+  }
+  return camera;
+}
+
+/// A motion and the box of each of its moments, moved by `shift` from the scene's axes.
+struct PlacedMotion {
+  const FramedMotion& motion;
+  Eigen::Vector3d shift;
+  std::vector<Eigen::AlignedBox3d> bounds;
+};
+
+std::vector<Framing> frame_placed(const std::vector<PlacedMotion>& placed,
+                                  const TurntableOptions& options) {
+  Eigen::AlignedBox3d all;
+  for (const PlacedMotion& each : placed) {
+    for (const Eigen::AlignedBox3d& box : each.bounds) all.extend(box);
+  }
+  const Eigen::Matrix3d view = view_axes(options.elevation);
+  const double half_height = std::tan(options.field_of_view * std::numbers::pi / 360);
+  const double half_width = half_height * options.width / options.height;
+  std::vector<Framing> framings;
+  std::vector<Silhouette> silhouettes;
+  for (const PlacedMotion& each : placed) {
+    Framing& framing = framings.emplace_back();
+    framing.mesh_to_table = table_transform(each.motion.mesh, each.shift, all);
+    framing.floors = floor_heights(each.bounds, all, options.floor_follows);
+    for (Silhouette& silhouette : silhouettes_of(each.motion, framing, view, half_height)) {
+      silhouettes.push_back(std::move(silhouette));
+    }
+  }
+  const bool has_extent = all.isEmpty() ? false : all.diagonal().norm() > 0;
+  const Camera camera =
+      camera_for(silhouettes, has_extent, view, {2 * half_width, 2 * half_height}, options.fill);
+  for (Framing& framing : framings) framing.camera = camera;
+  return framings;
 }
 
 }  // namespace
@@ -221,34 +284,20 @@ Eigen::Affine3d mesh_to_studio(const Framing& framing, double azimuth) {
 
 Framing frame_motion(const AnimatedMesh& mesh, const std::vector<LoopMoment>& moments,
                      const TurntableOptions& options) {
-  const std::vector<Eigen::AlignedBox3d> bounds = moment_bounds(mesh, moments);
-  Eigen::AlignedBox3d all;
-  for (const Eigen::AlignedBox3d& box : bounds) all.extend(box);
+  const FramedMotion motion{{}, mesh, moments};
+  return frame_placed({{motion, Eigen::Vector3d::Zero(), moment_bounds(motion)}}, options).front();
+}
 
-  Framing framing;
-  framing.mesh_to_table = table_transform(mesh, all);
-  framing.floors = floor_heights(bounds, all, options.floor_follows);
-
-  const Eigen::Matrix3d view = view_axes(options.elevation);
-  const double half_height = std::tan(options.field_of_view * std::numbers::pi / 360);
-  const double half_width = half_height * options.width / options.height;
-  const Eigen::Vector2d picture(2 * half_width, 2 * half_height);
-  const auto silhouettes = silhouettes_of(mesh, moments, framing, view, half_height);
-  const bool has_extent = all.isEmpty() ? false : all.diagonal().norm() > 0;
-  const double distance = has_extent ? fitting_distance(silhouettes, picture, options.fill) : 5.0;
-
-  Camera& camera = framing.camera;
-  camera.position = (view.row(2).transpose() * distance).cast<float>();
-  camera.right = view.row(0).transpose().cast<float>();
-  camera.up = view.row(1).transpose().cast<float>();
-  camera.forward = -view.row(2).transpose().cast<float>();
-  camera.half_width = static_cast<float>(half_width);
-  camera.half_height = static_cast<float>(half_height);
-  if (has_extent) {
-    const Coverage coverage = coverage_at(silhouettes, distance, picture);
-    camera.shift = ((coverage.all.low + coverage.all.high) / 2).cast<float>();
+std::vector<Framing> frame_side_by_side(const std::vector<FramedMotion>& motions,
+                                        const TurntableOptions& options) {
+  std::vector<PlacedMotion> placed;
+  for (const FramedMotion& motion : motions) {
+    std::vector<Eigen::AlignedBox3d> bounds = moment_bounds(motion);
+    const Eigen::Vector3d shift = shift_to_ground(bounds.front());
+    for (Eigen::AlignedBox3d& box : bounds) box.translate(shift);
+    placed.push_back({motion, shift, std::move(bounds)});
   }
-  return framing;
+  return frame_placed(placed, options);
 }
 
 }  // namespace morphbake

@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <string>
 #include <vector>
 
 #include "morphbake/gltf/animated_mesh.h"
@@ -46,5 +47,23 @@ Eigen::Affine3d mesh_to_studio(const Framing& framing, double azimuth);
 /// @cost   two poses a moment, on all threads of the current task arena
 Framing frame_motion(const AnimatedMesh& mesh, const std::vector<LoopMoment>& moments,
                      const TurntableOptions& options);
+
+/// One of several meshes that are shown beside one another.
+struct FramedMotion {
+  std::string file;  ///< for messages
+  const AnimatedMesh& mesh;
+  const std::vector<LoopMoment>& moments;
+};
+
+/// As frame_motion, of several meshes with one camera and one scale: the same place in all pictures
+/// is the same place in space.
+///
+/// Meshes may lie anywhere in their scenes. Each is moved, once, so that the bounds of its first
+/// moment have their middle over one point of one ground; what begins alike is compared where it
+/// is.
+/// @return  one a motion, with equal cameras
+/// @throws BakeError "preview.not-finite", with the file
+std::vector<Framing> frame_side_by_side(const std::vector<FramedMotion>& motions,
+                                        const TurntableOptions& options);
 
 }  // namespace morphbake

@@ -159,13 +159,6 @@ void draw_marks(StillView& view) {
   }
 }
 
-/// A title that fits above its picture.
-std::string shortened(const std::string& title, int width) {
-  std::string text = title;
-  while (!text.empty() && text_size(text, kTextScale).x() > width) text.pop_back();
-  return text.size() == title.size() ? text : text + "...";
-}
-
 /// Pixels that the legend needs on the right.
 int legend_width(const std::vector<std::string>& names) {
   int width = 0;
@@ -220,8 +213,9 @@ Image render_landmark_sheet(const std::vector<MarkedShape>& shapes,
       const int left = kGap + column * (size + kGap);
       paste(view.picture, left, top + kCaption, sheet);
       const std::string caption =
-          column == 0 ? fmt::format("{}: {}", shortened(shape.title, size - 140), from.name)
-                      : from.name;
+          column == 0
+              ? fmt::format("{}: {}", fitted_text(shape.title, size - 110, kTextScale), from.name)
+              : from.name;
       draw_text(sheet, caption, {left + 2, top + 2}, kTextScale, {kText, 1});
     }
   }

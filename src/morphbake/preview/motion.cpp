@@ -1,5 +1,6 @@
 #include "morphbake/preview/motion.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -17,8 +18,24 @@ bool ends_as_it_begins(const AnimatedMesh& mesh) {
 
 }  // namespace
 
-double played_share(const AnimatedMesh& mesh, double phase) {
-  return ends_as_it_begins(mesh) ? phase : 1.0 - std::abs(1.0 - 2.0 * phase);
+PlayedSpan played_span(const AnimatedMesh& mesh) {
+  const std::vector<float>& times = mesh.weights.times;
+  if (times.empty()) return {};
+  return {times.front(), times.back(), !ends_as_it_begins(mesh)};
+}
+
+PlayedSpan common_span(const std::vector<PlayedSpan>& spans) {
+  PlayedSpan all = spans.front();
+  for (const PlayedSpan& span : spans) {
+    all = {std::min(all.begin, span.begin), std::max(all.end, span.end),
+           all.returns || span.returns};
+  }
+  return all;
+}
+
+double time_at(const PlayedSpan& span, double phase) {
+  const double share = span.returns ? 1.0 - std::abs(1.0 - 2.0 * phase) : phase;
+  return span.begin + (span.end - span.begin) * share;
 }
 
 double orbit_azimuth(const TurntableOptions& options, double phase) {
@@ -27,16 +44,14 @@ double orbit_azimuth(const TurntableOptions& options, double phase) {
   return options.azimuth + options.orbit / 2 * std::sin(2 * std::numbers::pi * phase);
 }
 
-std::vector<LoopMoment> loop_moments(const AnimatedMesh& mesh, const TurntableOptions& options) {
+std::vector<LoopMoment> loop_moments(const AnimatedMesh& mesh, const PlayedSpan& span,
+                                     const TurntableOptions& options) {
   std::vector<LoopMoment> moments;
   for (int i = 0; i < options.frames; ++i) {
     const double phase = static_cast<double>(i) / options.frames;
     LoopMoment moment;
-    if (mesh.weights.values.rows() > 0) {
-      const double begin = mesh.weights.times.empty() ? 0.0 : mesh.weights.times.front();
-      const double end = mesh.weights.times.empty() ? 0.0 : mesh.weights.times.back();
-      moment.weights = weights_at(mesh, begin + (end - begin) * played_share(mesh, phase));
-    }
+    moment.time = time_at(span, phase);
+    if (mesh.weights.values.rows() > 0) moment.weights = weights_at(mesh, moment.time);
     moment.azimuth = orbit_azimuth(options, phase) * std::numbers::pi / 180.0;
     moments.push_back(moment);
   }

@@ -12,11 +12,28 @@ namespace morphbake {
 struct LoopMoment {
   Eigen::VectorXd weights;  ///< one a target
   double azimuth = 0;       ///< radians
+  double time = 0;          ///< seconds of the animation
 };
 
-/// Share of the animation's length that is shown at `phase` (0 to 1) of the loop: up to the end and
-/// back, or straight through when the last key's weights are the first's.
-double played_share(const AnimatedMesh& mesh, double phase);
+/// The seconds of an animation that a loop plays.
+struct PlayedSpan {
+  double begin = 0;  ///< the first key's
+  double end = 0;    ///< the last key's
+  /// Plays to the end and back; otherwise straight through, for the last key's weights are the
+  /// first's.
+  bool returns = false;
+};
+
+PlayedSpan played_span(const AnimatedMesh& mesh);
+
+/// What several animations play on one clock: from the first key of any to the last; straight
+/// through only when all may.
+///
+/// @param spans  one or more
+PlayedSpan common_span(const std::vector<PlayedSpan>& spans);
+
+/// Seconds at `phase` (0 to 1) of the loop.
+double time_at(const PlayedSpan& span, double phase);
 
 /// Camera azimuth in degrees at `phase` (0 to 1) of the loop.
 ///
@@ -25,6 +42,9 @@ double played_share(const AnimatedMesh& mesh, double phase);
 double orbit_azimuth(const TurntableOptions& options, double phase);
 
 /// The loop's moments in order; the first follows the last as any other follows its neighbour.
-std::vector<LoopMoment> loop_moments(const AnimatedMesh& mesh, const TurntableOptions& options);
+///
+/// Beyond the keys of `mesh` its first and last pose stand.
+std::vector<LoopMoment> loop_moments(const AnimatedMesh& mesh, const PlayedSpan& span,
+                                     const TurntableOptions& options);
 
 }  // namespace morphbake

@@ -5,10 +5,12 @@
 #include <tbb/task_arena.h>
 
 #include <algorithm>
+#include <deque>
 #include <utility>
 
 #include "morphbake/diagnostics/problem.h"
 #include "morphbake/preview/appearance.h"
+#include "morphbake/preview/captioned_row.h"
 #include "morphbake/preview/framing.h"
 #include "morphbake/preview/motion.h"
 #include "morphbake/preview/picture.h"
@@ -54,6 +56,67 @@ int thread_count(const TurntableOptions& options) {
   return options.threads > 0 ? std::min(options.threads, cores) : cores;
 }
 
+/// A mesh on the table: what stays from picture to picture is made once.
+class MeshOnTable {
+ public:
+  /// All but the options and the observer must outlive it.
+  MeshOnTable(const AnimatedMesh& mesh, const std::vector<LoopMoment>& moments,
+              const Framing& framing, const TurntableOptions& options, const Observer& observer)
+      : mesh_(mesh),
+        moments_(moments),
+        framing_(framing),
+        width_(options.width),
+        height_(options.height),
+        appearance_(make_appearance(mesh, observer)),
+        studio_(make_studio(options)),
+        pattern_(make_sample_pattern(options.samples)),
+        poses_(first_poses()),
+        rays_(mesh, poses_) {}
+
+  Image picture(std::size_t i) {
+    pose(i, poses_);
+    rays_.refit();
+    const Scene scene{mesh_,   poses_,          rays_,    appearance_,
+                      studio_, framing_.camera, pattern_, framing_.floors[i]};
+    return render_picture(scene, width_, height_);
+  }
+
+ private:
+  void pose(std::size_t i, std::vector<PosedPrimitive>& poses) const {
+    pose_mesh(mesh_, moments_[i].weights, mesh_to_studio(framing_, moments_[i].azimuth), poses);
+  }
+
+  std::vector<PosedPrimitive> first_poses() const {
+    std::vector<PosedPrimitive> poses;
+    pose(0, poses);
+    return poses;
+  }
+
+  const AnimatedMesh& mesh_;
+  const std::vector<LoopMoment>& moments_;
+  const Framing& framing_;
+  int width_;
+  int height_;
+  Appearance appearance_;
+  Studio studio_;
+  SamplePattern pattern_;
+  std::vector<PosedPrimitive> poses_;
+  RayScene rays_;  // shares the memory of poses_
+};
+
+/// The moments of all subjects on one clock.
+std::vector<std::vector<LoopMoment>> moments_of(const std::vector<TurntableSubject>& subjects,
+                                                const TurntableOptions& options) {
+  std::vector<PlayedSpan> spans;
+  for (const TurntableSubject& subject : subjects) spans.push_back(played_span(subject.mesh));
+  const PlayedSpan span = common_span(spans);
+  std::vector<std::vector<LoopMoment>> moments;
+  for (const TurntableSubject& subject : subjects) {
+    moments.push_back(loop_moments(subject.mesh, span, options));
+  }
+  return moments;
+}
+
 }  // namespace
 
 std::vector<Image> render_turntable(const AnimatedMesh& mesh, const TurntableOptions& options,
@@ -61,26 +124,48 @@ std::vector<Image> render_turntable(const AnimatedMesh& mesh, const TurntableOpt
   check(options);
   advance(observer, {"preview", 0, options.frames});
   tbb::task_arena arena(thread_count(options));
-  const std::vector<LoopMoment> moments = loop_moments(mesh, options);
+  const std::vector<LoopMoment> moments = loop_moments(mesh, played_span(mesh), options);
   const Framing framing = arena.execute([&] { return frame_motion(mesh, moments, options); });
-  const Appearance appearance = make_appearance(mesh, observer);
-  const Studio studio = make_studio(options);
-  const SamplePattern pattern = make_sample_pattern(options.samples);
-
-  std::vector<PosedPrimitive> poses;
-  pose_mesh(mesh, moments[0].weights, mesh_to_studio(framing, moments[0].azimuth), poses);
-  RayScene rays(mesh, poses);
+  MeshOnTable on_table(mesh, moments, framing, options, observer);
   std::vector<Image> pictures;
   for (std::size_t i = 0; i < moments.size(); ++i) {
-    pose_mesh(mesh, moments[i].weights, mesh_to_studio(framing, moments[i].azimuth), poses);
-    rays.refit();
-    const Scene scene{mesh,   poses,          rays,    appearance,
-                      studio, framing.camera, pattern, framing.floors[i]};
-    pictures.push_back(
-        arena.execute([&] { return render_picture(scene, options.width, options.height); }));
+    pictures.push_back(arena.execute([&] { return on_table.picture(i); }));
     advance(observer, {"preview", static_cast<int>(i) + 1, options.frames});
   }
   return pictures;
+}
+
+std::vector<Image> render_side_by_side(const std::vector<TurntableSubject>& subjects,
+                                       const TurntableOptions& options, const Observer& observer) {
+  check(options);
+  const int total = options.frames * static_cast<int>(subjects.size());
+  advance(observer, {"preview", 0, total});
+  tbb::task_arena arena(thread_count(options));
+  const std::vector<std::vector<LoopMoment>> moments = moments_of(subjects, options);
+  std::vector<FramedMotion> motions;
+  std::vector<std::string> labels;
+  for (std::size_t k = 0; k < subjects.size(); ++k) {
+    motions.push_back({subjects[k].file, subjects[k].mesh, moments[k]});
+    labels.push_back(subjects[k].label);
+  }
+  const std::vector<Framing> framings =
+      arena.execute([&] { return frame_side_by_side(motions, options); });
+  std::deque<MeshOnTable> on_table;  // they cannot move
+  for (std::size_t k = 0; k < subjects.size(); ++k) {
+    on_table.emplace_back(subjects[k].mesh, moments[k], framings[k], options, observer);
+  }
+  std::vector<Image> rows;
+  int done = 0;
+  for (std::size_t i = 0; i < moments.front().size(); ++i) {
+    std::vector<Image> pictures;
+    for (MeshOnTable& each : on_table) {
+      pictures.push_back(arena.execute([&] { return each.picture(i); }));
+      advance(observer, {"preview", ++done, total});
+    }
+    rows.push_back(
+        captioned_row(pictures, labels, fmt::format("{:.2f} s", moments.front()[i].time)));
+  }
+  return rows;
 }
 
 }  // namespace morphbake

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <string>
 #include <vector>
 
 #include "morphbake/diagnostics/observer.h"
@@ -49,5 +50,24 @@ struct TurntableOptions {
 ///          memory for all pictures and about 120 bytes a pixel
 std::vector<Image> render_turntable(const AnimatedMesh& mesh, const TurntableOptions& options,
                                     const Observer& observer);
+
+/// A morph that is shown beside others.
+struct TurntableSubject {
+  std::string file;   ///< for messages
+  std::string label;  ///< what stands above it
+  AnimatedMesh mesh;
+};
+
+/// Renders several morphs beside one another in the order given, each under its label: one camera,
+/// one scale, one clock. Those whose animation is over stay at its end.
+///
+/// Meshes are moved once so that their first moments stand over one point of one ground.
+/// @param subjects  one or more
+/// @param options   width and height of the picture of one of them
+/// @return          `options.frames` pictures of one size, the seconds in a corner
+/// @throws BakeError as render_turntable
+/// @cost    as render_turntable, once a subject
+std::vector<Image> render_side_by_side(const std::vector<TurntableSubject>& subjects,
+                                       const TurntableOptions& options, const Observer& observer);
 
 }  // namespace morphbake

@@ -42,6 +42,7 @@ struct EditHandle {
 /// rest relaxes.
 struct EditSource {
   int region = -1;
+  bool turns = false;  ///< whether what is free turns and grows with the handles
   std::vector<EditHandle> handles;
 };
 

@@ -1,3 +1,4 @@
+
 #include "morphbake/recipe/reading.h"
 
 namespace morphbake {
@@ -45,11 +46,32 @@ void read_gauge(Reading& reading) {
   }
 }
 
+void read_representation(Reading& reading) {
+  const std::string name = reading.document.value("representation", "auto");
+  Recipe& recipe = reading.recipe;
+  recipe.representation = representation_named(name);
+  if (recipe.representation == Representation::Auto ||
+      recipe.representation == Representation::Laplacian) {
+    return;
+  }
+  if (has_shares_an_axis(recipe)) {
+    complain(reading, "recipe.conflicting-fields", "/representation",
+             "axes mix by themselves in the representation \"laplacian\" only",
+             "give each source one share, or leave \"representation\" out");
+  }
+  if (recipe.gauge.kind == Gauge::Kind::Anchor) {
+    complain(reading, "recipe.conflicting-fields", "/representation",
+             "an anchor shows what the paper's own differences do: those of \"laplacian\"",
+             "take another gauge, or leave \"representation\" out");
+  }
+}
+
 }  // namespace
 
 void read_constraints(Reading& reading) {
   read_hold(reading);
   read_gauge(reading);
+  read_representation(reading);
 }
 
 }  // namespace morphbake

@@ -94,6 +94,7 @@ EditSource read_edit_source(Reading& reading, const Json& json, int root,
                             const std::string& pointer) {
   EditSource edit;
   edit.region = read_region_field(reading, json, pointer);
+  edit.turns = json.value("representation", "laplacian") == "rotation";
   const Json& handles = json["handles"];
   for (std::size_t i = 0; i < handles.size(); ++i) {
     edit.handles.push_back(

@@ -1,5 +1,8 @@
 #include "morphbake/recipe/recipe.h"
 
+#include <algorithm>
+#include <array>
+#include <cassert>
 #include <utility>
 
 namespace morphbake {
@@ -19,6 +22,36 @@ const std::filesystem::path& written_in(const std::vector<RecipePart>& parts,
     if (part.pointer.size() >= best->pointer.size() && lies_in(pointer, part.pointer)) best = &part;
   }
   return best->file;
+}
+
+namespace {
+
+/// In the order of Representation.
+constexpr std::array kRepresentations = {"auto",   "laplacian", "rotation",
+                                         "affine", "absolute",  "rigid"};
+
+}  // namespace
+
+std::string name_of(Representation representation) {
+  return kRepresentations[static_cast<std::size_t>(representation)];
+}
+
+Representation representation_named(const std::string& name) {
+  const auto found = std::find(kRepresentations.begin(), kRepresentations.end(), name);
+  assert(found != kRepresentations.end());
+  return static_cast<Representation>(found - kRepresentations.begin());
+}
+
+bool has_shares_an_axis(const Recipe& recipe) {
+  const auto is_an_axis = [](const Shares& shares) { return shares.cols() > 1; };
+  const auto edits_an_axis = [&](const Edit& edit) { return is_an_axis(edit.to); };
+  return is_an_axis(recipe.timeline.start) ||
+         std::any_of(recipe.timeline.tracks.begin(), recipe.timeline.tracks.end(),
+                     [&](const Track& track) { return edits_an_axis(track.edit); }) ||
+         std::any_of(recipe.states.begin(), recipe.states.end(), [&](const State& state) {
+           return is_an_axis(state.mix) ||
+                  std::any_of(state.edits.begin(), state.edits.end(), edits_an_axis);
+         });
 }
 
 Location location_in(const Recipe& recipe, std::string pointer) {

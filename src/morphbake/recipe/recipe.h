@@ -53,6 +53,16 @@ struct ConnectivityRequest {
   VertexSizing sizing = VertexSizing::Curvature;
 };
 
+/// What of the sources is blended, see docs/method.md.
+enum class Representation {
+  Auto,       ///< Rotation where the shapes are turned against one another, else Laplacian
+  Laplacian,  ///< differences along edges (Alexa 2003, section 4.1)
+  Rotation,   ///< differences that are turned along: for sources that are bent or twisted
+  Affine,     ///< weights of neighbours (section 4.2)
+  Absolute,   ///< positions
+  Rigid,      ///< positions, once motions have brought the sources together
+};
+
 /// How lengths in a recipe are meant.
 enum class Units { Diagonal, Scene };
 
@@ -199,6 +209,7 @@ struct Recipe {
   std::vector<RegionOfInterest> regions;
   std::vector<State> states;
   Timeline timeline;
+  Representation representation = Representation::Auto;
   Hold hold;
   Gauge gauge;
   std::vector<Output> outputs;
@@ -209,6 +220,15 @@ struct Recipe {
 /// The file that wrote what stands at `pointer`: of the longest part there, the last.
 const std::filesystem::path& written_in(const std::vector<RecipePart>& parts,
                                         std::string_view pointer);
+
+/// As recipes write it: "auto", "laplacian", "rotation", "affine", "absolute", "rigid".
+std::string name_of(Representation representation);
+
+/// @param name  one of those
+Representation representation_named(const std::string& name);
+
+/// Whether any shares mix each axis by itself.
+bool has_shares_an_axis(const Recipe& recipe);
 
 /// Where something stands, for messages.
 Location location_in(const Recipe& recipe, std::string pointer);

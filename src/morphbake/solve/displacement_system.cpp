@@ -233,6 +233,25 @@ Goal DisplacementSystem::goal(const Eigen::MatrixXd& change) const {
   return goal;
 }
 
+Goal DisplacementSystem::goal_of_shape(const Positions& b, const Positions& blend,
+                                       std::vector<bool> is_blend,
+                                       const Positions& reference) const {
+  Goal goal;
+  goal.blend = blend - reference;
+  goal.start = goal.blend;
+  goal.uniform = std::move(is_blend);
+  goal.imbalance = Positions::Zero(components_.count, 3);
+  require_finite(goal.blend, "blended",
+                 "the sources' coordinates are too large for double precision");
+  goal.differences = b;
+  for (Eigen::Index i = 0; i < reference.rows(); ++i) {
+    for_each_neighbour(rings_, i, [&](Eigen::Index j) {
+      goal.differences.row(i) -= reference.row(i) - reference.row(j);
+    });
+  }
+  return goal;
+}
+
 Goal DisplacementSystem::goal_of_moves(const Positions& moves) const {
   Goal goal;
   goal.blend = Positions::Zero(moves.rows(), 3);

@@ -51,6 +51,16 @@ class DisplacementSystem {
   /// @throws BakeError "solve.not-finite"
   Goal goal(const Eigen::MatrixXd& change) const;
 
+  /// A shape of given differences, as displacements from another one.
+  ///
+  /// @param b          #V by 3, of K_L V = b: sums to 0 over each component
+  /// @param blend      #V by 3: where held vertices stand, and what the gauge follows
+  /// @param is_blend   one a component: whether the blend is the shape
+  /// @param reference  #V by 3
+  /// @throws BakeError "solve.not-finite"
+  Goal goal_of_shape(const Positions& b, const Positions& blend, std::vector<bool> is_blend,
+                     const Positions& reference) const;
+
   /// Held vertices displaced as given, and nothing else asked for: minimises |L u| over the others.
   ///
   /// Where all held vertices of a component move alike, so do the others, exactly; a component that

@@ -57,12 +57,11 @@ FrameSource combined_frames(const SolvedShapes& shapes, const SeparableTimeline&
 }
 
 SolvedFrames solved_frames(const SurfaceSolver& solver, const Positions& reference,
-                           const std::vector<double>& times,
-                           const std::function<Eigen::MatrixXd(double)>& change_at,
+                           const std::vector<double>& times, const GoalsAt& goals_at,
                            const Observer& observer) {
   const auto file = std::make_shared<FrameFile>(reference.rows());
   std::vector<SolveRecord> records = solve_frames(
-      solver, times, change_at, observer,
+      solver, times, goals_at, observer,
       [&](int, const Positions& displacement) { file->append(reference + displacement); });
   return {{times, [file](std::size_t frame) { return file->read(frame); }}, std::move(records)};
 }

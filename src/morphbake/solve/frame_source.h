@@ -30,8 +30,7 @@ struct SolvedFrames {
 /// @param reference  #V by 3: what displacements start from
 /// @throws BakeError "output.unwritable" when there is no room for the scratch file
 SolvedFrames solved_frames(const SurfaceSolver& solver, const Positions& reference,
-                           const std::vector<double>& times,
-                           const std::function<Eigen::MatrixXd(double)>& change_at,
+                           const std::vector<double>& times, const GoalsAt& goals_at,
                            const Observer& observer);
 
 }  // namespace morphbake

@@ -6,14 +6,19 @@
 
 namespace morphbake {
 
-Positions solve_change(const SurfaceSolver& solver, const Eigen::MatrixXd& change,
-                       const std::string& name, std::vector<SolveRecord>& records) {
+Positions solve_goal(const SurfaceSolver& solver, Goal goal, const std::string& name,
+                     std::vector<SolveRecord>& records) {
+  if (goal.is_blend()) return std::move(goal.blend);
   const DisplacementSystem& system = solver.system();
-  const std::vector<Goal> goals = {system.goal(change)};
-  if (goals[0].is_blend()) return goals[0].blend;
+  const std::vector<Goal> goals = {std::move(goal)};
   std::vector<Eigen::MatrixXd> x = {system.start(goals[0])};
   records.push_back({name, 0, solver.solve(goals, x)[0]});
   return system.displacement(goals[0], x[0]);
+}
+
+Positions solve_change(const SurfaceSolver& solver, const Eigen::MatrixXd& change,
+                       const std::string& name, std::vector<SolveRecord>& records) {
+  return solve_goal(solver, solver.system().goal(change), name, records);
 }
 
 SolvedShapes solve_fields(const SurfaceSolver& solver, const MorphableMesh& mesh,

@@ -23,6 +23,12 @@ struct SolvedShapes {
   std::vector<SolveRecord> records;      ///< one a field that needed a solve
 };
 
+/// Displacement from the reference for one goal.
+///
+/// @param records  gets one more when a solve was needed
+Positions solve_goal(const SurfaceSolver& solver, Goal goal, const std::string& name,
+                     std::vector<SolveRecord>& records);
+
 /// Displacement from the reference for a change of shares.
 ///
 /// Components in which every vertex changes alike take the linear blend itself, which is the

@@ -10,6 +10,7 @@ namespace morphbake {
 namespace {
 
 constexpr std::size_t kFramesPerSolve = 16;  // columns of one pass over the factor: 48
+constexpr std::size_t kFramesPerGoals = 8;   // which share passes as well, where they need any
 constexpr double kChunkBytes = 256e6;
 constexpr double kBytesPerVertexAndFrame = 150;  // goal, unknowns, residual, correction
 
@@ -136,8 +137,8 @@ void solve_chunk(const SurfaceSolver& solver, Chunk& chunk,
 }  // namespace
 
 std::vector<SolveRecord> solve_frames(const SurfaceSolver& solver, const std::vector<double>& times,
-                                      const std::function<Eigen::MatrixXd(double)>& change_at,
-                                      const Observer& observer, const FrameConsumer& consumer) {
+                                      const GoalsAt& goals_at, const Observer& observer,
+                                      const FrameConsumer& consumer) {
   const DisplacementSystem& system = solver.system();
   const std::size_t length = chunk_length(system);
   std::vector<SolveRecord> records;
@@ -145,11 +146,21 @@ std::vector<SolveRecord> solve_frames(const SurfaceSolver& solver, const std::ve
   for (std::size_t first = 0; first < times.size(); first += length) {
     advance(observer, {"solve", static_cast<int>(first), static_cast<int>(times.size())});
     Chunk chunk;
-    for (std::size_t f = first; f < std::min(times.size(), first + length); ++f) {
-      chunk.goals.push_back(system.goal(change_at(times[f])));
-      chunk.x.push_back(system.start(chunk.goals.back()));
-    }
-    chunk.reached.resize(chunk.x.size());
+    const std::size_t frames = std::min(length, times.size() - first);
+    chunk.goals.resize(frames);
+    chunk.x.resize(frames);
+    chunk.reached.resize(frames);
+    const std::size_t batches = (frames + kFramesPerGoals - 1) / kFramesPerGoals;
+    tbb::parallel_for(std::size_t{0}, batches, [&](std::size_t batch) {
+      stop_if_cancelled(observer);
+      const std::size_t begin = batch * kFramesPerGoals;
+      const std::size_t end = std::min(frames, begin + kFramesPerGoals);
+      std::vector<Goal> goals = goals_at({times.data() + first + begin, end - begin});
+      for (std::size_t i = begin; i < end; ++i) {
+        chunk.goals[i] = std::move(goals[i - begin]);
+        chunk.x[i] = system.start(chunk.goals[i]);
+      }
+    });
     solve_chunk(solver, chunk, before);
     for (std::size_t i = 0; i < chunk.x.size(); ++i) {
       consumer(static_cast<int>(first + i), system.displacement(chunk.goals[i], chunk.x[i]));

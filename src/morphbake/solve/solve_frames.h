@@ -1,11 +1,15 @@
 #pragma once
 
 #include <functional>
+#include <span>
 #include <vector>
 
 #include "morphbake/solve/solve_fields.h"
 
 namespace morphbake {
+
+/// What some moments ask of the surface; called from several threads.
+using GoalsAt = std::function<std::vector<Goal>(std::span<const double> times)>;
 
 /// Takes frames in the order of time.
 using FrameConsumer = std::function<void(int frame, const Positions& displacement)>;
@@ -19,10 +23,9 @@ using FrameConsumer = std::function<void(int frame, const Positions& displacemen
 /// `direct` starts from the blend alone. Iterations go through time, each frame from the line
 /// through the last two. The order depends on the times and the number of vertices, never on
 /// threads.
-/// @param change_at  dT at a time: #sources by #V, or 3 #V; columns sum to 0
 /// @return           one record a frame that needed a solve
 std::vector<SolveRecord> solve_frames(const SurfaceSolver& solver, const std::vector<double>& times,
-                                      const std::function<Eigen::MatrixXd(double)>& change_at,
-                                      const Observer& observer, const FrameConsumer& consumer);
+                                      const GoalsAt& goals_at, const Observer& observer,
+                                      const FrameConsumer& consumer);
 
 }  // namespace morphbake

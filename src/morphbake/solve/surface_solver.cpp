@@ -83,7 +83,10 @@ SurfaceSolver::SurfaceSolver(const DisplacementSystem& system, const SolveOption
       observer_(observer),
       choice_(choose_solver(system, options)) {
   if (choice_.solver == Solver::Direct || choice_.solver == Solver::Warm) {
-    method_.emplace<CholeskyFactor>(system.equations());
+    // Corrections of L^T L by a float32 factor barely contract.
+    const bool is_single = choice_.solver == Solver::Warm && !system.holds();
+    method_.emplace<CholeskyFactor>(system.equations(),
+                                    is_single ? Precision::Single : Precision::Double);
   } else if (choice_.solver == Solver::ConjugateGradients) {
     method_.emplace<IncompleteFactor>(system.equations());
   }

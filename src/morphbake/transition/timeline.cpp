@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 namespace morphbake {
 namespace {
@@ -136,12 +137,11 @@ std::size_t file_of(const Recipe& recipe, std::size_t shape) {
 
 }  // namespace
 
-std::vector<int> sources_with_a_share(const Recipe& recipe) {
-  std::vector<bool> has_share(recipe.sources.size(), false);
+std::vector<int> shapes_with_a_share(const Recipe& recipe) {
+  std::vector<bool> has_share(recipe.sources.size() + recipe.derived.size(), false);
   const auto add = [&](const Shares& shares) {
     for (Eigen::Index row = 0; row < shares.rows(); ++row) {
-      if (!shares.row(row).isZero(0))
-        has_share[file_of(recipe, static_cast<std::size_t>(row))] = true;
+      if (!shares.row(row).isZero(0)) has_share[static_cast<std::size_t>(row)] = true;
     }
   };
   if (recipe.timeline.keys.empty()) add(recipe.timeline.start);
@@ -150,12 +150,20 @@ std::vector<int> sources_with_a_share(const Recipe& recipe) {
     add(state.mix);
     for (const Edit& edit : state.edits) add(edit.to);
   }
-  std::vector<int> sources;
+  std::vector<int> shapes;
   for (std::size_t s = 0; s < has_share.size(); ++s) {
-    if (has_share[s]) sources.push_back(static_cast<int>(s));
+    if (has_share[s]) shapes.push_back(static_cast<int>(s));
   }
-  if (sources.empty()) sources.push_back(0);
-  return sources;
+  if (shapes.empty()) shapes.push_back(0);
+  return shapes;
+}
+
+std::vector<int> sources_with_a_share(const Recipe& recipe) {
+  std::set<int> sources;
+  for (const int shape : shapes_with_a_share(recipe)) {
+    sources.insert(static_cast<int>(file_of(recipe, static_cast<std::size_t>(shape))));
+  }
+  return {sources.begin(), sources.end()};
 }
 
 std::vector<double> timeline_breaks(const Timeline& timeline) {

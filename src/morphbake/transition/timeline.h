@@ -46,6 +46,9 @@ TransitionState state_transition(const State& state, const RegionFields& regions
 TransitionState transition_at(const Recipe& recipe, const RegionFields& regions,
                               Eigen::Index vertex_count, double time);
 
+/// The shapes that have a share in any track or state, in order; the first where none.
+std::vector<int> shapes_with_a_share(const Recipe& recipe);
+
 /// The sources with a file that have a share in any track or state, or from which a shape with a
 /// share is derived, in order; the first where none.
 std::vector<int> sources_with_a_share(const Recipe& recipe);

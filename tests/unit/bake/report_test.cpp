@@ -29,9 +29,10 @@ BakeReport full_report() {
   report.recipe = "nose";
   report.vertices = 8;
   report.frames = 2;
-  report.solve = {"warm", "as the options say",
-                  6,      2,
-                  1000,   {{"nose", 0, {1, 1e-12, 1e-11, true}}, {"", 0.5, {2, 0, 0, true}}}};
+  report.solve = {"laplacian", "as the recipe says",
+                  "warm",      "as the options say",
+                  6,           2,
+                  1000,        {{"nose", 0, {1, 1e-12, 1e-11, true}}, {"", 0.5, {2, 0, 0, true}}}};
   report.stages = {{"solve", 0.25}};
   report.connectivity = full_connectivity();
   OutputReport output;

@@ -63,5 +63,15 @@ TEST(Drawing, EachLetterOfOtherAlphabetsIsOneMark) {
   EXPECT_EQ(known.rgb, unknown.rgb);
 }
 
+TEST(Drawing, TextThatIsTooLongLosesItsMiddle) {
+  EXPECT_EQ(fitted_text("absolute.glb", text_size("absolute.glb", 2).x(), 2), "absolute.glb");
+  EXPECT_EQ(fitted_text("absolute.glb", text_size("absolute.glb", 2).x() - 1, 2), "abso....glb");
+  EXPECT_EQ(fitted_text("größe-länge", text_size("gr...ge", 1).x(), 1), "gr...ge");
+  EXPECT_EQ(fitted_text("abcdef", text_size("a...", 1).x(), 1), "a...");
+  EXPECT_EQ(fitted_text("abcdef", text_size("...", 1).x(), 1), "...");
+  EXPECT_EQ(fitted_text("abcdef", text_size("...", 1).x() - 1, 1), "");
+  EXPECT_EQ(fitted_text("", 0, 1), "");
+}
+
 }  // namespace
 }  // namespace morphbake

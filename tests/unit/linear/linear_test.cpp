@@ -49,6 +49,41 @@ TEST(CholeskyFactor, SolvesEverySingularBlock) {
   EXPECT_GT(factor.bytes(), two.system.matrix.rows() * sizeof(double));
 }
 
+TEST(CholeskyFactor, SolvesAsManyColumnsAsItIsGivenEachByItself) {
+  const Mesh mesh = test::joined(test::torus(37, 23), test::sphere(9, 11));
+  const OneRings rings = one_rings({static_cast<int>(mesh.positions.rows()), mesh.triangles});
+  const Components components = connected_components(rings);
+  const SymmetricSystem system{symmetric_laplacian(rings), components.label, components.count};
+  const Eigen::Index rows = system.matrix.rows();
+  for (const Precision precision : {Precision::Double, Precision::Single}) {
+    const CholeskyFactor factor(system, precision);
+    const double error = precision == Precision::Double ? 1e-12 : 1e-4;
+    for (const Eigen::Index columns : {1, 4, 5, 9, 12, 24, 31, 49}) {
+      Eigen::MatrixXd known(rows, columns);
+      for (Eigen::Index c = 0; c < columns; ++c) {
+        for (Eigen::Index r = 0; r < rows; ++r) {
+          known(r, c) = std::sin(0.1 * static_cast<double>(r) + static_cast<double>(c));
+        }
+      }
+      const Eigen::MatrixXd b = system.matrix * known;
+      Eigen::MatrixXd difference = factor.solve(b) - known;
+      remove_block_means(system, difference);
+      EXPECT_LT(difference.cwiseAbs().maxCoeff(), error) << columns;
+      const Eigen::MatrixXd last = factor.solve(b.rightCols(1));
+      EXPECT_EQ(factor.solve(b).rightCols(1), last) << columns;
+    }
+  }
+}
+
+TEST(CholeskyFactor, OfSingleNumbersTakesHalfTheRoom) {
+  const Mesh mesh = test::torus(60, 40);
+  const OneRings rings = one_rings({static_cast<int>(mesh.positions.rows()), mesh.triangles});
+  const SymmetricSystem system{symmetric_laplacian(rings), connected_components(rings).label, 1};
+  const auto exact = static_cast<double>(CholeskyFactor(system).bytes());
+  const auto single = static_cast<double>(CholeskyFactor(system, Precision::Single).bytes());
+  EXPECT_LT(single, 0.6 * exact);
+}
+
 TEST(CholeskyFactor, TakesASystemWithoutUnknowns) {
   const CholeskyFactor factor(SymmetricSystem{});
   EXPECT_EQ(factor.solve(Eigen::MatrixXd(0, 3)).rows(), 0);

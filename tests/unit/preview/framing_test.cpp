@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
+#include "morphbake/diagnostics/problem.h"
 #include "morphbake/preview/pose.h"
 #include "tests/unit/preview/subjects.h"
 
@@ -31,7 +33,7 @@ Eigen::AlignedBox2f rectangle(const AnimatedMesh& mesh, const Framing& framing,
 /// Largest share of a side that the subject takes in any picture; fails where it comes near the
 /// border.
 float largest_fill(const AnimatedMesh& mesh, const TurntableOptions& options) {
-  const std::vector<LoopMoment> moments = loop_moments(mesh, options);
+  const std::vector<LoopMoment> moments = loop_moments(mesh, played_span(mesh), options);
   const Framing framing = frame_motion(mesh, moments, options);
   float largest = 0;
   for (const LoopMoment& moment : moments) {
@@ -103,7 +105,7 @@ TEST(Framing, FloorTouchesThePoseOrTheWholeMotion) {
   TurntableOptions options = small_options();
   for (const bool follows : {true, false}) {
     options.floor_follows = follows;
-    const std::vector<LoopMoment> moments = loop_moments(mesh, options);
+    const std::vector<LoopMoment> moments = loop_moments(mesh, played_span(mesh), options);
     const Framing framing = frame_motion(mesh, moments, options);
     std::vector<PosedPrimitive> poses;
     for (std::size_t i = 0; i < moments.size(); ++i) {
@@ -115,12 +117,83 @@ TEST(Framing, FloorTouchesThePoseOrTheWholeMotion) {
   }
 }
 
+TEST(Framing, SideBySideHasOneCameraOneScaleAndOneGround) {
+  // A column, and one of half its size that lies elsewhere in its scene.
+  const AnimatedMesh large = growing_column();
+  AnimatedMesh small = growing_column();
+  small.to_scene.topLeftCorner<3, 3>() *= 0.5;
+  small.primitives[0].positions.rowwise() += Eigen::RowVector3f(5, -7, 9);
+  const TurntableOptions options = small_options();
+  const std::vector<LoopMoment> moments = loop_moments(large, played_span(large), options);
+  const std::vector<Framing> framings =
+      frame_side_by_side({{"large", large, moments}, {"small", small, moments}}, options);
+  ASSERT_EQ(framings.size(), 2U);
+  EXPECT_EQ(framings[0].camera.position, framings[1].camera.position);
+  EXPECT_EQ(framings[0].camera.shift, framings[1].camera.shift);
+  EXPECT_NEAR(framings[1].mesh_to_table.linear()(0, 0) / framings[0].mesh_to_table.linear()(0, 0),
+              0.5, 1e-6);
+  // Both stand on the ground at first, and are seen whole.
+  EXPECT_NEAR(framings[0].floors[0], framings[1].floors[0], 1e-5);
+  Eigen::AlignedBox2f first, second;
+  for (const LoopMoment& moment : moments) {
+    first.extend(rectangle(large, framings[0], moment));
+    second.extend(rectangle(small, framings[1], moment));
+  }
+  EXPECT_GT(first.min().minCoeff(), 0.02f);
+  EXPECT_LT(first.max().maxCoeff(), 0.98f);
+  EXPECT_TRUE(first.contains(second));
+  const Eigen::AlignedBox2f large_box = rectangle(large, framings[0], moments[0]);
+  const Eigen::AlignedBox2f small_box = rectangle(small, framings[1], moments[0]);
+  EXPECT_NEAR(large_box.center().x(), small_box.center().x(), 1e-3);
+  EXPECT_NEAR(small_box.sizes().x() / large_box.sizes().x(), 0.5, 0.03);
+}
+
+TEST(Framing, SideBySideNamesTheFileThatIsNotFinite) {
+  const AnimatedMesh good = growing_column();
+  AnimatedMesh bad = good;
+  bad.primitives[0].target_positions[0](7, 1) = std::numeric_limits<float>::infinity();
+  const std::vector<LoopMoment> moments = loop_moments(good, played_span(good), small_options());
+  try {
+    frame_side_by_side({{"good.glb", good, moments}, {"bad.glb", bad, moments}}, small_options());
+    ADD_FAILURE() << "nothing is thrown";
+  } catch (const BakeError& error) {
+    EXPECT_EQ(error.problems()[0].location.file, "bad.glb");
+  }
+}
+
 TEST(Motion, PlaysToTheEndAndBackUnlessItEndsAsItBegins) {
   AnimatedMesh mesh = growing_column();
-  EXPECT_DOUBLE_EQ(played_share(mesh, 0.25), 0.5);
-  EXPECT_DOUBLE_EQ(played_share(mesh, 0.75), 0.5);
+  mesh.weights.times = {2, 4};
+  EXPECT_DOUBLE_EQ(time_at(played_span(mesh), 0.25), 3);
+  EXPECT_DOUBLE_EQ(time_at(played_span(mesh), 0.75), 3);
   mesh.weights.values << 1, 1;
-  EXPECT_DOUBLE_EQ(played_share(mesh, 0.75), 0.75);
+  EXPECT_DOUBLE_EQ(time_at(played_span(mesh), 0.75), 3.5);
+}
+
+TEST(Motion, HasOneClockForSeveralMeshes) {
+  AnimatedMesh brief = growing_column(), late = growing_column(), cycle = growing_column();
+  brief.weights.times = {0, 1};
+  late.weights.times = {1, 4};
+  cycle.weights.values << 1, 1;
+  const auto span_of = [](const std::vector<AnimatedMesh>& meshes) {
+    std::vector<PlayedSpan> spans;
+    for (const AnimatedMesh& mesh : meshes) spans.push_back(played_span(mesh));
+    return common_span(spans);
+  };
+  const PlayedSpan span = span_of({brief, late});
+  EXPECT_DOUBLE_EQ(span.begin, 0);
+  EXPECT_DOUBLE_EQ(span.end, 4);
+  EXPECT_TRUE(span.returns);
+  EXPECT_TRUE(span_of({cycle, brief}).returns);
+  EXPECT_FALSE(span_of({cycle, cycle}).returns);
+
+  TurntableOptions options;
+  options.frames = 4;
+  const std::vector<LoopMoment> moments = loop_moments(brief, span, options);
+  ASSERT_EQ(moments.size(), 4U);
+  EXPECT_DOUBLE_EQ(moments[1].time, 2);
+  EXPECT_DOUBLE_EQ(moments[1].weights(0), 1);  // it stays at its end
+  EXPECT_DOUBLE_EQ(loop_moments(late, span, options)[0].weights(0), 0);
 }
 
 TEST(Motion, TurnsRoundOrSwings) {

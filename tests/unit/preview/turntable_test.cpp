@@ -193,5 +193,42 @@ TEST(Turntable, TakesAHundredThousandTriangles) {
   EXPECT_EQ(render_turntable(mesh, options, {}).size(), 2u);
 }
 
+TEST(SideBySide, ShowsEqualMorphsAlike) {
+  AnimatedMesh elsewhere = growing_column();
+  elsewhere.to_scene.topRightCorner<3, 1>() << 10, -20, 30;
+  const TurntableOptions options = small_options();
+  const std::vector<Image> rows = render_side_by_side(
+      {{"a.glb", "a.glb", growing_column()}, {"b.glb", "b.glb", elsewhere}}, options, {});
+  ASSERT_EQ(rows.size(), 8U);
+  for (const Image& row : rows) {
+    ASSERT_GE(row.width, 2 * options.width);
+    const int strip = row.height - options.height;
+    double difference = 0;
+    for (int y = strip; y < row.height; ++y) {
+      for (int x = 0; x < options.width; ++x) {
+        const auto at = [&](int column) {
+          return int(row.rgb[3 * (std::size_t(y) * row.width + column)]);
+        };
+        difference += std::abs(at(x) - at(row.width - options.width + x));
+      }
+    }
+    EXPECT_LT(difference / (options.width * options.height), 0.05);
+  }
+}
+
+TEST(SideBySide, StopsWhenItIsCancelled) {
+  Observer observer;
+  int pictures = -1;
+  observer.on_progress = [&](const Progress& progress) {
+    ++pictures;
+    EXPECT_EQ(progress.total, 16);
+  };
+  observer.is_cancelled = [&] { return pictures == 3; };
+  EXPECT_THROW(render_side_by_side(
+                   {{"a.glb", "a.glb", growing_column()}, {"b.glb", "b.glb", growing_column()}},
+                   small_options(), observer),
+               Cancelled);
+}
+
 }  // namespace
 }  // namespace morphbake

@@ -48,6 +48,14 @@ struct Solved {
   std::vector<SolveRecord> records;
 };
 
+GoalsAt goals_of(const Sweep& sweep, const DisplacementSystem& system) {
+  return [&](std::span<const double> times) {
+    std::vector<Goal> goals;
+    for (const double time : times) goals.push_back(system.goal(sweep.change_at(time)));
+    return goals;
+  };
+}
+
 Solved solve(const Sweep& sweep, const DisplacementSystem& system, Solver method) {
   SolveOptions options;
   options.solver = method;
@@ -55,12 +63,11 @@ Solved solve(const Sweep& sweep, const DisplacementSystem& system, Solver method
   const Observer nobody;
   const SurfaceSolver solver(system, options, nobody);
   Solved solved;
-  solved.records = solve_frames(
-      solver, sweep.times, [&](double time) { return sweep.change_at(time); }, nobody,
-      [&](int frame, const Positions& positions) {
-        EXPECT_EQ(frame, static_cast<int>(solved.frames.size()));
-        solved.frames.push_back(positions);
-      });
+  solved.records = solve_frames(solver, sweep.times, goals_of(sweep, system), nobody,
+                                [&](int frame, const Positions& positions) {
+                                  EXPECT_EQ(frame, static_cast<int>(solved.frames.size()));
+                                  solved.frames.push_back(positions);
+                                });
   return solved;
 }
 
@@ -117,9 +124,7 @@ TEST(SolvedFrames, AreKeptAndReadInAnyOrder) {
   const SurfaceSolver solver(system, {}, nobody);
   const Positions& rest = sweep.mesh.geometries[0];
   const FrameSource source =
-      solved_frames(
-          solver, rest, sweep.times, [&](double time) { return sweep.change_at(time); }, nobody)
-          .source;
+      solved_frames(solver, rest, sweep.times, goals_of(sweep, system), nobody).source;
   const std::vector<Positions> frames = solve(sweep, system, Solver::Direct).frames;
   for (const std::size_t f : {std::size_t{90}, std::size_t{0}, std::size_t{41}}) {
     EXPECT_LT(largest_distance(source.positions(f), rest + frames[f]), 1e-9);

@@ -1,0 +1,105 @@
+#include "morphbake/differential/deformation.h"
+
+#include <Eigen/QR>
+#include <Eigen/SVD>
+#include <cmath>
+
+#include "morphbake/differential/rotation_vector.h"
+#include "morphbake/mesh/normals.h"
+
+namespace morphbake {
+namespace {
+
+/// Weight of the normal beside the edges, whose squared lengths sum to 1: most one-rings are nearly
+/// flat, and say little of what happens across them.
+constexpr double kNormalWeight = 0.3;
+
+/// Of the one-ring's size: what flat and slanted one-rings without normals are stretched by is 1.
+constexpr double kRegular = 1e-9;
+
+struct Polar {
+  Eigen::Matrix3d rotation;
+  Eigen::Matrix3d stretch;
+};
+
+/// M = R S with a rotation R; where M mirrors, S does.
+Polar polar(const Eigen::Matrix3d& M) {
+  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(M, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  Eigen::Matrix3d U = svd.matrixU();
+  Eigen::Vector3d sigma = svd.singularValues();
+  if ((U * svd.matrixV().transpose()).determinant() < 0) {
+    U.col(2) *= -1;
+    sigma(2) *= -1;
+  }
+  return {U * svd.matrixV().transpose(),
+          svd.matrixV() * sigma.asDiagonal() * svd.matrixV().transpose()};
+}
+
+/// Least squares over the one-ring's edges and the normal.
+Eigen::Matrix3d gradient_at(const OneRings& rings, int vertex, const Positions& from,
+                            const Positions& to, const Normals& from_normals,
+                            const Normals& to_normals) {
+  const auto v = static_cast<std::size_t>(vertex);
+  Eigen::Matrix3d squares = Eigen::Matrix3d::Zero(), products = squares;
+  double from_size = 0, to_size = 0;
+  for (int n = rings.offsets[v]; n < rings.offsets[v + 1]; ++n) {
+    const int j = rings.neighbours[static_cast<std::size_t>(n)];
+    const Eigen::Vector3d p = from.row(j) - from.row(vertex), q = to.row(j) - to.row(vertex);
+    squares += p * p.transpose();
+    products += q * p.transpose();
+    from_size += p.squaredNorm();
+    to_size += q.squaredNorm();
+  }
+  if (!(from_size > 0)) return Eigen::Matrix3d::Identity();
+  const Eigen::Vector3d p = from_normals.row(vertex), q = to_normals.row(vertex);
+  const double scale = std::sqrt(to_size / from_size);
+  squares += kNormalWeight * from_size * p * p.transpose();
+  products += kNormalWeight * from_size * scale * q * p.transpose();
+  squares += kRegular * from_size * Eigen::Matrix3d::Identity();
+  products += kRegular * from_size * scale * Eigen::Matrix3d::Identity();
+  return products * squares.inverse();
+}
+
+}  // namespace
+
+std::vector<Edge> edges_of(const OneRings& rings) {
+  std::vector<Edge> edges;
+  edges.reserve(rings.neighbours.size() / 2);
+  for (int a = 0; a + 1 < static_cast<int>(rings.offsets.size()); ++a) {
+    const auto v = static_cast<std::size_t>(a);
+    for (int n = rings.offsets[v]; n < rings.offsets[v + 1]; ++n) {
+      const int b = rings.neighbours[static_cast<std::size_t>(n)];
+      if (a < b) edges.push_back({a, b});
+    }
+  }
+  return edges;
+}
+
+Deformation deformation_of(const OneRings& rings, const std::vector<Edge>& edges,
+                           const Triangles& triangles, const Positions& from, const Positions& to) {
+  const Normals from_normals = smooth_normals(from, triangles);
+  const Normals to_normals = smooth_normals(to, triangles);
+  Deformation deformation;
+  std::vector<Eigen::Matrix3d> R;
+  for (int i = 0; i < from.rows(); ++i) {
+    const Polar parts = polar(gradient_at(rings, i, from, to, from_normals, to_normals));
+    R.push_back(parts.rotation);
+    deformation.rotations.emplace_back(parts.rotation);
+    deformation.stretches.push_back(parts.stretch);
+  }
+  for (const Edge& edge : edges) {
+    const auto a = static_cast<std::size_t>(edge.a), b = static_cast<std::size_t>(edge.b);
+    deformation.turns.push_back(
+        rotation_vector(deformation.rotations[a].conjugate() * deformation.rotations[b]));
+    const Eigen::Vector3d before = from.row(edge.a) - from.row(edge.b);
+    const Eigen::Vector3d after = to.row(edge.a) - to.row(edge.b);
+    const Eigen::Matrix3d M =
+        (R[a] * deformation.stretches[a] + R[b] * deformation.stretches[b]) / 2;
+    // Where a and b are turned by pi against one another the mean of the rotations has no inverse.
+    deformation.remainders.push_back(
+        ((R[a] + R[b]) / 2).completeOrthogonalDecomposition().solve(after - M * before));
+  }
+  return deformation;
+}
+
+}  // namespace morphbake
