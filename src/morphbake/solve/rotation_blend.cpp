@@ -15,6 +15,30 @@ namespace {
 constexpr double kSettled = 1e-6;
 constexpr int kMostSteps = 50;
 
+constexpr int kFits = 10;
+
+/// The rotation nearest to a matrix, from one close by.
+///
+/// @see Müller, Bender, Chentanez and Macklin 2016, A robust method to extract the rotational part
+///      of deformations
+Eigen::Quaterniond nearest_rotation(const Eigen::Matrix3d& A, Eigen::Quaterniond rotation) {
+  constexpr int kMostTurns = 20;
+  constexpr double kStill = 1e-9;
+  for (int turn = 0; turn < kMostTurns; ++turn) {
+    const Eigen::Matrix3d R = rotation.toRotationMatrix();
+    Eigen::Vector3d omega = Eigen::Vector3d::Zero();
+    double along = 0;
+    for (int k = 0; k < 3; ++k) {
+      omega += R.col(k).cross(A.col(k));
+      along += R.col(k).dot(A.col(k));
+    }
+    omega /= std::abs(along) + 1e-300;
+    rotation = (rotation_of(omega) * rotation).normalized();
+    if (omega.squaredNorm() < kStill * kStill) break;
+  }
+  return rotation;
+}
+
 }  // namespace
 
 SourceDeformations source_deformations(const MorphableMesh& mesh) {
@@ -39,6 +63,18 @@ RotationBlend::RotationBlend(const MorphableMesh& mesh,
       deformations_(source_deformations_->against_first),
       held_(mesh.connectivity.vertex_count, false),
       gauge_(constraints.gauge) {
+  for (std::size_t s = 0; s < deformations_.size(); ++s) {
+    TransitionState T = TransitionState::Zero(static_cast<Eigen::Index>(mesh.geometries.size()),
+                                              mesh.connectivity.vertex_count);
+    T.row(static_cast<Eigen::Index>(s + 1)).setOnes();
+    const RotationField& own = deformations_[s].rotations;
+    const RotationField fit = fitted(T, own, mesh.geometries[s + 1]);
+    std::vector<Eigen::Vector3d> misfits;
+    for (std::size_t v = 0; v < own.size(); ++v) {
+      misfits.push_back(rotation_vector(own[v].conjugate() * fit[v]));
+    }
+    misfits_.push_back(std::move(misfits));
+  }
   choose_roots();
   plan_tree();
   const bool holds =
@@ -159,7 +195,7 @@ void RotationBlend::factorise() {
   }
   equations_.matrix.resize(count, count);
   equations_.matrix.setFromTriplets(entries.begin(), entries.end());
-  factor_.emplace(equations_, Precision::Single);
+  factor_.emplace(equations_);
 }
 
 /// sum_s T_s l_s along an edge.
@@ -268,39 +304,98 @@ std::vector<RotationField> RotationBlend::rotations(std::span<const TransitionSt
     }
     moving = std::move(still_moving);
   }
-  for (std::size_t i = 0; i < fields.size(); ++i) turn_back(guesses[i], fields[i]);
+  for (std::size_t i = 0; i < fields.size(); ++i) {
+    for (int fit = 0; fit < kFits; ++fit) {
+      const Positions shape = shape_of(states[i], differences(states[i], fields[i]));
+      fields[i] = fitted(states[i], fields[i], shape);
+    }
+    turn_back(guesses[i], fields[i]);
+  }
   return fields;
+}
+
+std::vector<Eigen::Matrix3d> RotationBlend::blended_stretches(const TransitionState& T) const {
+  std::vector<Eigen::Matrix3d> stretches;
+  for (Eigen::Index v = 0; v < T.cols(); ++v) {
+    Eigen::Matrix3d S = T(0, v) * Eigen::Matrix3d::Identity();
+    for (std::size_t s = 0; s < deformations_.size(); ++s) {
+      S += T(static_cast<Eigen::Index>(s + 1), v) *
+           deformations_[s].stretches[static_cast<std::size_t>(v)];
+    }
+    stretches.push_back(S);
+  }
+  return stretches;
+}
+
+/// S e + r of an edge as one of its ends sees it, before it is turned.
+Eigen::Vector3d RotationBlend::blended_edge(const TransitionState& T,
+                                            const std::vector<Eigen::Matrix3d>& S, std::size_t edge,
+                                            bool at_first) const {
+  const auto [a, b] = edges_[edge];
+  const Positions& first = mesh_.geometries.front();
+  Eigen::Vector3d remainder = Eigen::Vector3d::Zero();
+  for (std::size_t s = 0; s < deformations_.size(); ++s) {
+    const auto row = static_cast<Eigen::Index>(s + 1);
+    remainder += (T(row, a) + T(row, b)) / 2 * deformations_[s].remainders[edge];
+  }
+  const Eigen::Vector3d whole = (first.row(a) - first.row(b)).transpose();
+  return S[static_cast<std::size_t>(at_first ? a : b)] * whole + remainder;
 }
 
 Positions RotationBlend::differences(const TransitionState& T,
                                      const RotationField& rotations) const {
-  const Positions& first = mesh_.geometries.front();
-  std::vector<Eigen::Matrix3d> R, M;
-  for (std::size_t v = 0; v < rotations.size(); ++v) {
-    const auto column = static_cast<Eigen::Index>(v);
-    Eigen::Matrix3d S = T(0, column) * Eigen::Matrix3d::Identity();
-    for (std::size_t s = 0; s < deformations_.size(); ++s) {
-      S += T(static_cast<Eigen::Index>(s + 1), column) * deformations_[s].stretches[v];
-    }
-    R.push_back(rotations[v].toRotationMatrix());
-    M.push_back(R.back() * S);
-  }
-  Positions b = Positions::Zero(first.rows(), 3);
+  const std::vector<Eigen::Matrix3d> S = blended_stretches(T);
+  std::vector<Eigen::Matrix3d> R;
+  for (const Eigen::Quaterniond& rotation : rotations) R.push_back(rotation.toRotationMatrix());
+  Positions b = Positions::Zero(T.cols(), 3);
   for (std::size_t e = 0; e < edges_.size(); ++e) {
     const Edge& edge = edges_[e];
-    const auto a = static_cast<std::size_t>(edge.a), other = static_cast<std::size_t>(edge.b);
-    Eigen::Vector3d remainder = Eigen::Vector3d::Zero();
-    for (std::size_t s = 0; s < deformations_.size(); ++s) {
-      const auto row = static_cast<Eigen::Index>(s + 1);
-      remainder += (T(row, edge.a) + T(row, edge.b)) / 2 * deformations_[s].remainders[e];
-    }
-    const Eigen::Vector3d whole = (first.row(edge.a) - first.row(edge.b)).transpose();
     const Eigen::RowVector3d blended =
-        ((M[a] + M[other]) * whole / 2 + (R[a] + R[other]) * remainder / 2).transpose();
+        ((R[static_cast<std::size_t>(edge.a)] * blended_edge(T, S, e, true) +
+          R[static_cast<std::size_t>(edge.b)] * blended_edge(T, S, e, false)) /
+         2)
+            .transpose();
     b.row(edge.a) += blended;
     b.row(edge.b) -= blended;
   }
   return b;
+}
+
+/// The shape of given differences, each free component anywhere; what is held as it stands.
+Positions RotationBlend::shape_of(const TransitionState& T, const Positions& b) const {
+  Positions shape = Positions::Zero(b.rows(), 3);
+  (void)T;
+  Eigen::MatrixXd right(equations_.matrix.rows(), 3);
+  for (std::size_t v = 0; v < unknown_.size(); ++v) {
+    if (unknown_[v] >= 0) right.row(unknown_[v]) = b.row(static_cast<Eigen::Index>(v));
+  }
+  const Eigen::MatrixXd x = factor_->solve(right);
+  for (std::size_t v = 0; v < unknown_.size(); ++v) {
+    if (unknown_[v] >= 0) shape.row(static_cast<Eigen::Index>(v)) = x.row(unknown_[v]);
+  }
+  return shape;
+}
+
+RotationField RotationBlend::fitted(const TransitionState& T, const RotationField& near,
+                                    const Positions& shape) const {
+  const std::vector<Eigen::Matrix3d> S = blended_stretches(T);
+  std::vector<Eigen::Matrix3d> sums(near.size(), Eigen::Matrix3d::Zero());
+  for (std::size_t e = 0; e < edges_.size(); ++e) {
+    const Edge& edge = edges_[e];
+    const Eigen::Vector3d now = (shape.row(edge.a) - shape.row(edge.b)).transpose();
+    sums[static_cast<std::size_t>(edge.a)] += now * blended_edge(T, S, e, true).transpose();
+    sums[static_cast<std::size_t>(edge.b)] += now * blended_edge(T, S, e, false).transpose();
+  }
+  RotationField rotations = near;
+  for (std::size_t v = 0; v < near.size(); ++v) {
+    if (held_[v]) continue;
+    Eigen::Vector3d misfit = Eigen::Vector3d::Zero();
+    for (std::size_t s = 0; s < misfits_.size(); ++s) {
+      misfit += T(static_cast<Eigen::Index>(s + 1), static_cast<Eigen::Index>(v)) * misfits_[s][v];
+    }
+    rotations[v] = nearest_rotation(sums[v], near[v]) * rotation_of(-misfit);
+  }
+  return rotations;
 }
 
 }  // namespace morphbake

@@ -26,7 +26,9 @@ SourceDeformations source_deformations(const MorphableMesh& mesh);
 ///
 /// Along an edge (a, b) source s turns by l_s = log(R_a^T R_b) against the first one: little,
 /// however far the shapes are turned. Those of a transition state are sum_s T_s l_s; the rotations
-/// that fit all of them best are found by Gauss-Newton steps that share one factor.
+/// that fit all of them best are found by Gauss-Newton steps that share one factor. Then they are
+/// fitted to the shape that they give, as ARAP does, but for what the sources' own rotations are
+/// off by such a fit: a source stays exact.
 /// @see  docs/method.md, "Shapes that are turned"; Lipman et al. 2005, Linear rotation-invariant
 ///       coordinates
 class RotationBlend {
@@ -70,6 +72,12 @@ class RotationBlend {
   Eigen::MatrixXd misfits(const TransitionState& T, const RotationField& rotations) const;
   double turn_by(const Eigen::MatrixXd& phi, RotationField& rotations) const;
   void turn_back(const RotationField& guess, RotationField& rotations) const;
+  Positions shape_of(const TransitionState& T, const Positions& b) const;
+  RotationField fitted(const TransitionState& T, const RotationField& near,
+                       const Positions& shape) const;
+  Eigen::Vector3d blended_edge(const TransitionState& T, const std::vector<Eigen::Matrix3d>& S,
+                               std::size_t edge, bool at_first) const;
+  std::vector<Eigen::Matrix3d> blended_stretches(const TransitionState& T) const;
 
   const MorphableMesh& mesh_;
   OneRings rings_;
@@ -79,6 +87,7 @@ class RotationBlend {
   const std::vector<Deformation>& deformations_;  ///< likewise
   std::vector<bool> held_;
   Eigen::VectorXd gauge_;
+  std::vector<std::vector<Eigen::Vector3d>> misfits_;  ///< [further source][vertex]: log(R^T fit)
   std::vector<int> root_;      ///< one a component; -1 where something is held
   std::vector<Step> tree_;     ///< from the roots and what is held outwards
   RotationField reference_;    ///< #V where something is held: the rotations of what is
