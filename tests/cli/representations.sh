@@ -27,6 +27,18 @@ jq '.representation = "rotation"' tracks.json >asked.json
 run 2 validate asked.json
 stderr_has '#/outputs/0/targets: error: "tracks" targets are shapes that are solved once; the representation "rotation" solves every frame'
 
+# Where rotations turn sharply, `auto` leaves them, and who asks for them is told where.
+jq -n --arg a "$shapes/face.glb" '{version: 1, name: "way",
+  sources: {a: $a, b: {edit: {of: "a", region: "nose", handles: [{region: "tip", rotate: {axis: [0, 0, 1], degrees: 170}}]}}},
+  regions: {nose: {ball: {on: "a", at: "nose_tip", inner: 0.3, outer: 0.4}}, tip: {ball: {on: "a", at: "nose_tip", inner: 0.2, outer: 0.2}}},
+  representation: "rotation", timeline: {fps: 4, keys: [{time: 0, state: "a"}, {time: 1, state: "b"}]}}' >sharp.json
+bake sharp
+stderr_has 'sharp.json#/representation: warning: from "a" to "b"'
+stderr_has '[solve.sharp-turns]'
+jq '.representation = "auto"' sharp.json >unclear.json
+bake unclear
+[ "$(solve_of unclear representation)" = laplacian ] || wrong "unclear: $(solve_of unclear representation)"
+
 # All of them end in their sources.
 for representation in laplacian rotation affine absolute rigid; do
   recipe $representation bar_straight.glb bar_bent_twisted.glb \

@@ -17,15 +17,6 @@ namespace {
 
 constexpr double kDegree = std::numbers::pi / 180;
 
-double volume(const Triangles& triangles, const Positions& positions) {
-  double sum = 0;
-  for (const auto& f : triangles.rowwise()) {
-    const Eigen::Vector3d a = positions.row(f(0)), b = positions.row(f(1)), c = positions.row(f(2));
-    sum += a.dot(b.cross(c)) / 6;
-  }
-  return sum;
-}
-
 /// Root mean square of what edges are longer or shorter than the mean of both ends', relative.
 double edge_error(const MorphableMesh& mesh, const Positions& positions, double share) {
   double sum = 0;
@@ -109,9 +100,10 @@ TEST_P(Bars, KeepVolumeAndLengthsHalfWay) {
   const Shapes shapes(mesh);
   const Positions half = shapes.of_mix(Eigen::Vector2d(0.5, 0.5));
   const Triangles& triangles = mesh.connectivity.triangles;
-  const double expected =
-      (volume(triangles, mesh.geometries[0]) + volume(triangles, mesh.geometries[1])) / 2;
-  EXPECT_NEAR(volume(triangles, half) / expected, 1, GetParam().volume_error);
+  const double expected = (enclosed_volume(mesh.geometries[0], triangles) +
+                           enclosed_volume(mesh.geometries[1], triangles)) /
+                          2;
+  EXPECT_NEAR(enclosed_volume(half, triangles) / expected, 1, GetParam().volume_error);
   EXPECT_LT(edge_error(mesh, half, 0.5), GetParam().edge_error);
 }
 
@@ -192,9 +184,9 @@ TEST(Rotation, OfThreeSources) {
   const MorphableMesh mesh =
       test::morphable(bar.triangles, {bent(40, 0), bent(0, 200), bent(120, -90)});
   const Shapes shapes(mesh);
-  const double whole = volume(bar.triangles, bar.positions);
+  const double whole = enclosed_volume(bar.positions, bar.triangles);
   const Positions mixed = shapes.of_mix(Eigen::Vector3d(0.3, 0.4, 0.3));
-  EXPECT_NEAR(volume(bar.triangles, mixed) / whole, 1, 0.02);
+  EXPECT_NEAR(enclosed_volume(mixed, bar.triangles) / whole, 1, 0.02);
   EXPECT_EQ(shapes.of_mix(Eigen::Vector3d(0, 1, 0)),
             shapes.states().rest + (mesh.geometries[1] - shapes.states().rest));
 }
@@ -217,7 +209,8 @@ TEST(Rotation, WhatIsHeldStaysAndTheRestBends) {
     EXPECT_EQ(shape.row(v), mesh.geometries[0].row(v));
   }
   const Triangles& triangles = mesh.connectivity.triangles;
-  EXPECT_NEAR(volume(triangles, shape) / volume(triangles, mesh.geometries[0]), 1, 0.03);
+  EXPECT_NEAR(enclosed_volume(shape, triangles) / enclosed_volume(mesh.geometries[0], triangles), 1,
+              0.03);
   // The free end looks where it would look, were it bent from there on.
   const Positions& start = mesh.geometries[0];
   Eigen::Index top = 0, below = 0;

@@ -20,16 +20,6 @@ using Surface = CGAL::Surface_mesh<Kernel::Point_3>;
 constexpr double kEnd = 0.2;  // of the bar
 constexpr double kDegree = std::numbers::pi / 180;
 
-double volume(const Mesh& mesh) {
-  double sum = 0;
-  for (const auto& f : mesh.triangles.rowwise()) {
-    const Eigen::Vector3d a = mesh.positions.row(f(0)), b = mesh.positions.row(f(1)),
-                          c = mesh.positions.row(f(2));
-    sum += a.dot(b.cross(c)) / 6;
-  }
-  return sum;
-}
-
 /// Root mean square of what edges are longer or shorter than before, relative.
 double edge_error(const Mesh& before, const Positions& after) {
   double sum = 0;
@@ -116,9 +106,9 @@ class TurnedHandles : public testing::TestWithParam<Turn> {};
 TEST_P(TurnedHandles, ShearNothing) {
   const TurnedBar bar(GetParam().bend * kDegree, GetParam().twist * kDegree);
   const Positions turned = bar.by(Surroundings::Turned), cgal = bar.by_cgal();
-  const double whole = volume(bar.mesh);
+  const double whole = enclosed_volume(bar.mesh.positions, bar.mesh.triangles);
   const auto loss = [&](const Positions& positions) {
-    return std::abs(volume({positions, bar.mesh.triangles}) / whole - 1);
+    return std::abs(enclosed_volume(positions, bar.mesh.triangles) / whole - 1);
   };
   const Positions sheared = bar.by(Surroundings::AsTheyAre);
   EXPECT_LT(edge_error(bar.mesh, turned), GetParam().beside_cgal * edge_error(bar.mesh, cgal));

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 #include "morphbake/differential/rotation_vector.h"
 #include "morphbake/mesh/measures.h"
@@ -87,7 +88,8 @@ MostTurned most_turned(const Recipe& recipe, const MorphableMesh& mesh,
       most.shrinks = turning;
       most.to = shape;
     }
-    if (turning.sharpest > most.sharp.sharpest) {
+    if (std::tie(turning.sharp, turning.sharpest) >
+        std::tie(most.sharp.sharp, most.sharp.sharpest)) {
       most.sharp = turning;
       most.sharp_to = shape;
     }

@@ -1,5 +1,8 @@
 #include "morphbake/differential/deformation.h"
 
+#include <tbb/parallel_for.h>
+
+#include <Eigen/LU>
 #include <Eigen/QR>
 #include <Eigen/SVD>
 #include <cmath>
@@ -60,6 +63,14 @@ Eigen::Matrix3d gradient_at(const OneRings& rings, int vertex, const Positions& 
   return products * squares.inverse();
 }
 
+/// x with mean x = vector. Where rotations are turned by pi against one another their mean has no
+/// inverse.
+Eigen::Vector3d seen_from(const Eigen::Matrix3d& mean, const Eigen::Vector3d& vector) {
+  constexpr double kInvertible = 1e-6;
+  if (mean.determinant() > kInvertible) return mean.inverse() * vector;
+  return mean.completeOrthogonalDecomposition().solve(vector);
+}
+
 }  // namespace
 
 std::vector<Edge> edges_of(const OneRings& rings) {
@@ -79,26 +90,31 @@ Deformation deformation_of(const OneRings& rings, const std::vector<Edge>& edges
                            const Triangles& triangles, const Positions& from, const Positions& to) {
   const Normals from_normals = smooth_normals(from, triangles);
   const Normals to_normals = smooth_normals(to, triangles);
+  const auto count = static_cast<std::size_t>(from.rows());
   Deformation deformation;
-  std::vector<Eigen::Matrix3d> R;
-  for (int i = 0; i < from.rows(); ++i) {
-    const Polar parts = polar(gradient_at(rings, i, from, to, from_normals, to_normals));
-    R.push_back(parts.rotation);
-    deformation.rotations.emplace_back(parts.rotation);
-    deformation.stretches.push_back(parts.stretch);
-  }
-  for (const Edge& edge : edges) {
+  deformation.rotations.resize(count);
+  deformation.stretches.resize(count);
+  std::vector<Eigen::Matrix3d> R(count);
+  tbb::parallel_for(std::size_t{0}, count, [&](std::size_t v) {
+    const auto vertex = static_cast<int>(v);
+    const Polar parts = polar(gradient_at(rings, vertex, from, to, from_normals, to_normals));
+    R[v] = parts.rotation;
+    deformation.rotations[v] = Eigen::Quaterniond(parts.rotation);
+    deformation.stretches[v] = parts.stretch;
+  });
+  deformation.turns.resize(edges.size());
+  deformation.remainders.resize(edges.size());
+  tbb::parallel_for(std::size_t{0}, edges.size(), [&](std::size_t e) {
+    const Edge& edge = edges[e];
     const auto a = static_cast<std::size_t>(edge.a), b = static_cast<std::size_t>(edge.b);
-    deformation.turns.push_back(
-        rotation_vector(deformation.rotations[a].conjugate() * deformation.rotations[b]));
+    deformation.turns[e] =
+        rotation_vector(deformation.rotations[a].conjugate() * deformation.rotations[b]);
     const Eigen::Vector3d before = from.row(edge.a) - from.row(edge.b);
     const Eigen::Vector3d after = to.row(edge.a) - to.row(edge.b);
     const Eigen::Matrix3d M =
         (R[a] * deformation.stretches[a] + R[b] * deformation.stretches[b]) / 2;
-    // Where a and b are turned by pi against one another the mean of the rotations has no inverse.
-    deformation.remainders.push_back(
-        ((R[a] + R[b]) / 2).completeOrthogonalDecomposition().solve(after - M * before));
-  }
+    deformation.remainders[e] = seen_from((R[a] + R[b]) / 2, after - M * before);
+  });
   return deformation;
 }
 
