@@ -44,8 +44,8 @@ class PackedFactor {
 
   explicit PackedFactor(const SupernodalFactor& factor);
 
-  /// X with A X = b. Columns do not see one another: each has the same bytes beside any others, and
-  /// on machines with wide registers and without. May be called from several threads at once.
+  /// X with A X = b. Columns do not see one another: each has the same bytes beside any others. So
+  /// it has on x86 with wide registers and without. May be called from several threads at once.
   ///
   /// @param b  #A by any number of columns; rounded to Scalar
   Eigen::MatrixXd solve(const Eigen::MatrixXd& b) const;
