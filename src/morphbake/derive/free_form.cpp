@@ -2,8 +2,6 @@
 
 #include <fmt/core.h>
 
-#include <Eigen/LU>
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cassert>
 #include <cmath>
@@ -137,11 +135,7 @@ Maps fitted_maps(const OneRings& rings, const Positions& rest, const Positions& 
       const int j = rings.neighbours[static_cast<std::size_t>(n)];
       covariance += (moved.row(i) - moved.row(j)).transpose() * (rest.row(i) - rest.row(j));
     }
-    const Eigen::JacobiSVD<Eigen::Matrix3d> svd(covariance,
-                                                Eigen::ComputeFullU | Eigen::ComputeFullV);
-    Eigen::Matrix3d U = svd.matrixU();
-    if ((U * svd.matrixV().transpose()).determinant() < 0) U.col(2) *= -1;
-    maps.push_back(std::exp(turns(i, 3)) * U * svd.matrixV().transpose());
+    maps.push_back(std::exp(turns(i, 3)) * nearest_rotation(covariance));
   }
   return maps;
 }
@@ -181,17 +175,18 @@ Positions solved(const SurfaceSolver& solver, const Goal& goal, std::vector<Eige
 /// Differences turned with the handles first; then, in turn, as what came out is turned, and the
 /// positions for these, until they stand still.
 Positions turned_form(const SurfaceSolver& solver, const Mesh& mesh, const Positions& moves,
-                      const std::vector<Handle>& handles) {
+                      const std::vector<Handle>& handles, const Observer& observer) {
   const DisplacementSystem& system = solver.system();
   const OneRings rings = one_rings({static_cast<int>(mesh.positions.rows()), mesh.triangles});
   const Eigen::MatrixXd turns = harmonic_turns(rings, system.constraints().held, handles);
+  const std::vector<bool> is_held = held_components(system);
   Maps maps = maps_of(turns);
   Positions moved = mesh.positions;
   std::vector<Eigen::MatrixXd> x;
   for (int pass = 0; pass < kMostPasses; ++pass) {
-    const Goal goal =
-        system.goal_of_shape(mapped_differences(rings, mesh.positions, maps),
-                             mesh.positions + moves, held_components(system), mesh.positions);
+    stop_if_cancelled(observer);
+    const Goal goal = system.goal_of_shape(mapped_differences(rings, mesh.positions, maps),
+                                           mesh.positions + moves, is_held, mesh.positions);
     if (goal.is_blend()) return mesh.positions + moves;
     if (x.empty()) x.push_back(system.start(goal));
     const Positions next = mesh.positions + solved(solver, goal, x);
@@ -222,7 +217,7 @@ Positions free_form(const Mesh& mesh, const std::vector<bool>& fixed,
                      std::any_of(handles.begin(), handles.end(), turns_or_grows);
   Positions moved = mesh.positions;
   if (turns) {
-    moved = turned_form(SurfaceSolver(system, options, observer), mesh, moves, handles);
+    moved = turned_form(SurfaceSolver(system, options, observer), mesh, moves, handles, observer);
   } else if (const Goal goal = system.goal_of_moves(moves); goal.is_blend()) {
     moved += goal.blend;
   } else {

@@ -4,7 +4,6 @@
 
 #include <Eigen/LU>
 #include <Eigen/QR>
-#include <Eigen/SVD>
 #include <cmath>
 
 #include "morphbake/differential/rotation_vector.h"
@@ -19,24 +18,6 @@ constexpr double kNormalWeight = 0.3;
 
 /// Of the one-ring's size: what flat and slanted one-rings without normals are stretched by is 1.
 constexpr double kRegular = 1e-9;
-
-struct Polar {
-  Eigen::Matrix3d rotation;
-  Eigen::Matrix3d stretch;
-};
-
-/// M = R S with a rotation R; where M mirrors, S does.
-Polar polar(const Eigen::Matrix3d& M) {
-  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(M, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  Eigen::Matrix3d U = svd.matrixU();
-  Eigen::Vector3d sigma = svd.singularValues();
-  if ((U * svd.matrixV().transpose()).determinant() < 0) {
-    U.col(2) *= -1;
-    sigma(2) *= -1;
-  }
-  return {U * svd.matrixV().transpose(),
-          svd.matrixV() * sigma.asDiagonal() * svd.matrixV().transpose()};
-}
 
 /// Least squares over the one-ring's edges and the normal.
 Eigen::Matrix3d gradient_at(const OneRings& rings, int vertex, const Positions& from,
@@ -97,10 +78,11 @@ Deformation deformation_of(const OneRings& rings, const std::vector<Edge>& edges
   std::vector<Eigen::Matrix3d> R(count);
   tbb::parallel_for(std::size_t{0}, count, [&](std::size_t v) {
     const auto vertex = static_cast<int>(v);
-    const Polar parts = polar(gradient_at(rings, vertex, from, to, from_normals, to_normals));
-    R[v] = parts.rotation;
-    deformation.rotations[v] = Eigen::Quaterniond(parts.rotation);
-    deformation.stretches[v] = parts.stretch;
+    // Where the gradient mirrors, the stretch does.
+    const Eigen::Matrix3d M = gradient_at(rings, vertex, from, to, from_normals, to_normals);
+    R[v] = nearest_rotation(M);
+    deformation.rotations[v] = Eigen::Quaterniond(R[v]);
+    deformation.stretches[v] = R[v].transpose() * M;
   });
   deformation.turns.resize(edges.size());
   deformation.remainders.resize(edges.size());

@@ -1,5 +1,7 @@
 #include "morphbake/differential/rotation_vector.h"
 
+#include <Eigen/LU>
+#include <Eigen/SVD>
 #include <cmath>
 
 namespace morphbake {
@@ -57,6 +59,13 @@ Eigen::Quaterniond rotation_of(const Eigen::Vector3d& vector) {
   rotation.w() = std::cos(half);
   rotation.vec() = std::sin(half) / half / 2 * vector;
   return rotation;
+}
+
+Eigen::Matrix3d nearest_rotation(const Eigen::Matrix3d& matrix) {
+  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(matrix, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  Eigen::Matrix3d U = svd.matrixU();
+  if ((U * svd.matrixV().transpose()).determinant() < 0) U.col(2) *= -1;
+  return U * svd.matrixV().transpose();
 }
 
 }  // namespace morphbake

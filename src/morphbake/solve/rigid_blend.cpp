@@ -7,11 +7,6 @@
 namespace morphbake {
 namespace {
 
-/// Rows of a component.
-Positions rows_of(const Positions& positions, const std::vector<int>& vertices) {
-  return positions(vertices, Eigen::all);
-}
-
 /// The rotation that brings `from` nearest to `to`, both about their centres.
 Eigen::Quaterniond rotation_between(const Positions& from, const Positions& to) {
   const Eigen::Matrix4d map =
@@ -32,8 +27,8 @@ RigidBlend::RigidBlend(const MorphableMesh& mesh, Eigen::VectorXd gauge)
     std::vector<Motion> motions;
     Positions aligned = source;
     for (const std::vector<int>& vertices : members) {
-      const Positions first = rows_of(mesh.geometries.front(), vertices);
-      const Positions own = rows_of(source, vertices);
+      const Positions first = mesh.geometries.front()(vertices, Eigen::all);
+      const Positions own = source(vertices, Eigen::all);
       Motion motion;
       motion.centre = own.colwise().mean().transpose();
       const Eigen::Quaterniond rotation = rotation_between(first, own);
