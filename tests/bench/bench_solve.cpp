@@ -13,7 +13,6 @@
 #include "bench/timing.h"
 #include "morphbake/linear/cholesky_factor.h"
 #include "morphbake/solve/solve_frames.h"
-#include "morphbake/solve/state_system.h"
 #include "shapes/shapes.h"
 
 namespace morphbake::bench {
@@ -260,50 +259,6 @@ void bench_frames(const std::string& group, const Scene& scene, const Displaceme
                      fmt::format("{} corrections for {} frames", corrections, kFrames)});
 }
 
-/// Whole frames of a uniform mix of a bar and the same bent and twisted, with turns and without.
-void bench_rotations(int vertices, Figures& figures) {
-  const Mesh bar = test::bar(static_cast<int>(std::sqrt(vertices / 22.0)));
-  const MorphableMesh mesh = test::morphable(
-      bar.triangles, {bar.positions, test::bent_and_twisted(bar.positions, 2.1, 4.7)});
-  const auto system = [&] {
-    const std::vector<bool> untouched(static_cast<std::size_t>(mesh.connectivity.vertex_count));
-    return std::make_unique<DisplacementSystem>(
-        mesh,
-        choose_constraints(mesh, connected_components(one_rings(mesh.connectivity)), untouched,
-                           {HoldRule::Nothing, {}, {}, -1}),
-        RightHandSide::Edge);
-  };
-  const SolveOptions options = options_of(Solver::Warm, 1e-8);
-  const Eigen::Vector2d first(1, 0);
-  const StateSystem turned =
-      rotation_states(mesh, std::make_shared<SourceDeformations>(source_deformations(mesh)), first,
-                      system(), options, nobody);
-  const StateSystem plain = laplacian_states(mesh, first, system());
-  const SurfaceSolver solver(*plain.displacements, options, nobody);
-  std::vector<double> times;
-  for (int f = 0; f < kFrames; ++f) times.push_back((f + 1.0) / (kFrames + 1));
-  const auto run = [&](const StateSystem& states) {
-    const auto goals_at = [&](std::span<const double> moments) {
-      std::vector<TransitionState> all;
-      for (const double t : moments) {
-        TransitionState T = uniform_transition(Eigen::Vector2d(1 - t, t), bar.positions.rows());
-        T(0, 0) += 1e-3;  // not one mix everywhere: that needs no solve without turns
-        T(1, 0) -= 1e-3;
-        all.push_back(T);
-      }
-      return states.goals(all);
-    };
-    solve_frames(solver, times, goals_at, nobody, [](int, const Positions&) {});
-  };
-  const Pair pair = time_pair(
-      3, [&] { run(plain); }, [&] { run(turned); });
-  const std::string group =
-      "rotation, " + shown_count(static_cast<int>(bar.positions.rows())) + " vertices";
-  figures.push_back({group, "laplacian, whole frames", pair.first / kFrames * 1e3, "ms/frame", ""});
-  figures.push_back({group, "rotation, whole frames", pair.second / kFrames * 1e3, "ms/frame", ""});
-  figures.push_back({group, "rotation / laplacian", pair.ratio, "x", "pairs"});
-}
-
 }  // namespace
 
 void bench_solvers(int vertices, Figures& figures) {
@@ -329,7 +284,6 @@ void bench_solvers(int vertices, Figures& figures) {
                          static_cast<double>(held.equations().matrix.rows()),
                      "B", ""});
   bench_frames(group, scene, held, 1e-8, figures);
-  bench_rotations(vertices, figures);
 }
 
 }  // namespace morphbake::bench

@@ -38,6 +38,7 @@ Pair time_pair(int repeats, const std::function<void()>& first,
 std::string shown_count(int count);
 
 void bench_solvers(int vertices, Figures& figures);
+void bench_rotations(int vertices, Figures& figures);
 void bench_regions(int vertices, Figures& figures);
 void bench_eigenvectors(int vertices, Figures& figures);
 void bench_load(int vertices, Figures& figures);

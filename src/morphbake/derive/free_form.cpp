@@ -181,13 +181,14 @@ Positions turned_form(const SurfaceSolver& solver, const Mesh& mesh, const Posit
   const Eigen::MatrixXd turns = harmonic_turns(rings, system.constraints().held, handles);
   const std::vector<bool> is_held = held_components(system);
   Maps maps = maps_of(turns);
+  const Positions goals = mesh.positions + moves;
   Positions moved = mesh.positions;
   std::vector<Eigen::MatrixXd> x;
   for (int pass = 0; pass < kMostPasses; ++pass) {
     stop_if_cancelled(observer);
-    const Goal goal = system.goal_of_shape(mapped_differences(rings, mesh.positions, maps),
-                                           mesh.positions + moves, is_held, mesh.positions);
-    if (goal.is_blend()) return mesh.positions + moves;
+    const Goal goal = system.goal_of_shape(mapped_differences(rings, mesh.positions, maps), goals,
+                                           is_held, mesh.positions, goals);
+    if (goal.is_blend()) return goals;
     if (x.empty()) x.push_back(system.start(goal));
     const Positions next = mesh.positions + solved(solver, goal, x);
     const double step = largest_distance(next, moved);

@@ -3,7 +3,6 @@
 #include <tbb/parallel_for.h>
 
 #include <Eigen/LU>
-#include <Eigen/QR>
 #include <cmath>
 
 #include "morphbake/differential/rotation_vector.h"
@@ -44,14 +43,6 @@ Eigen::Matrix3d gradient_at(const OneRings& rings, int vertex, const Positions& 
   return products * squares.inverse();
 }
 
-/// x with mean x = vector. Where rotations are turned by pi against one another their mean has no
-/// inverse.
-Eigen::Vector3d seen_from(const Eigen::Matrix3d& mean, const Eigen::Vector3d& vector) {
-  constexpr double kInvertible = 1e-6;
-  if (mean.determinant() > kInvertible) return mean.inverse() * vector;
-  return mean.completeOrthogonalDecomposition().solve(vector);
-}
-
 }  // namespace
 
 std::vector<Edge> edges_of(const OneRings& rings) {
@@ -74,28 +65,16 @@ Deformation deformation_of(const OneRings& rings, const std::vector<Edge>& edges
   const auto count = static_cast<std::size_t>(from.rows());
   Deformation deformation;
   deformation.rotations.resize(count);
-  deformation.stretches.resize(count);
-  std::vector<Eigen::Matrix3d> R(count);
   tbb::parallel_for(std::size_t{0}, count, [&](std::size_t v) {
     const auto vertex = static_cast<int>(v);
-    // Where the gradient mirrors, the stretch does.
-    const Eigen::Matrix3d M = gradient_at(rings, vertex, from, to, from_normals, to_normals);
-    R[v] = nearest_rotation(M);
-    deformation.rotations[v] = Eigen::Quaterniond(R[v]);
-    deformation.stretches[v] = R[v].transpose() * M;
+    deformation.rotations[v] = Eigen::Quaterniond(
+        nearest_rotation(gradient_at(rings, vertex, from, to, from_normals, to_normals)));
   });
   deformation.turns.resize(edges.size());
-  deformation.remainders.resize(edges.size());
   tbb::parallel_for(std::size_t{0}, edges.size(), [&](std::size_t e) {
-    const Edge& edge = edges[e];
-    const auto a = static_cast<std::size_t>(edge.a), b = static_cast<std::size_t>(edge.b);
-    deformation.turns[e] =
-        rotation_vector(deformation.rotations[a].conjugate() * deformation.rotations[b]);
-    const Eigen::Vector3d before = from.row(edge.a) - from.row(edge.b);
-    const Eigen::Vector3d after = to.row(edge.a) - to.row(edge.b);
-    const Eigen::Matrix3d M =
-        (R[a] * deformation.stretches[a] + R[b] * deformation.stretches[b]) / 2;
-    deformation.remainders[e] = seen_from((R[a] + R[b]) / 2, after - M * before);
+    const RotationField& R = deformation.rotations;
+    deformation.turns[e] = rotation_vector(R[static_cast<std::size_t>(edges[e].a)].conjugate() *
+                                           R[static_cast<std::size_t>(edges[e].b)]);
   });
   return deformation;
 }

@@ -141,6 +141,10 @@ Eigen::MatrixXd CholeskyFactor::solve(const Eigen::MatrixXd& b) const {
   return std::visit([&b](const auto& packed) { return packed.solve(b); }, packed_);
 }
 
+void CholeskyFactor::solve_in_place(ColumnRows& b) const {
+  std::visit([&b](const auto& packed) { packed.solve_in_place(b); }, packed_);
+}
+
 std::size_t CholeskyFactor::bytes() const {
   return std::visit([](const auto& packed) { return packed.bytes(); }, packed_);
 }

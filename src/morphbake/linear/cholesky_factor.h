@@ -29,6 +29,9 @@ class CholeskyFactor {
   /// @return   X with A X = b and 0 in the first row of each singular block: as b
   Eigen::MatrixXd solve(const Eigen::MatrixXd& b) const;
 
+  /// The same of columns whose rows lie together: b <- X.
+  void solve_in_place(ColumnRows& b) const;
+
   /// What the factor's numbers take: what a solve reads twice.
   std::size_t bytes() const;
 

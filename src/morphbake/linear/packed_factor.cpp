@@ -227,30 +227,42 @@ void PackedFactor<Scalar>::pack(const SupernodalFactor& factor, std::size_t supe
   }
 }
 
+/// Right-hand sides, and solutions in their place.
+template <class Scalar>
+struct PackedFactor<Scalar>::Columns {
+  double* first = nullptr;
+  Eigen::Index count = 0;
+  Eigen::Index row_stride = 0, column_stride = 0;
+};
+
 template <class Scalar>
 template <int N>
-void PackedFactor<Scalar>::solve_panels(const Eigen::MatrixXd& b, Eigen::Index first,
-                                        Eigen::Index last, Eigen::MatrixXd& x) const {
+void PackedFactor<Scalar>::solve_panels(const Columns& columns, Eigen::Index first,
+                                        Eigen::Index last) const {
   constexpr int kWidth = N * kLanes<Scalar>;
   // A supernode's last tile may reach beyond its columns, and the last one beyond all of them.
   std::vector<Row<Scalar, N>> y(factored_rows_ + kTile);
-  const Eigen::Index stride = b.rows();
+  const Eigen::Index stride = columns.column_stride;
   for (Eigen::Index begin = first; begin < last; begin += kWidth) {
-    const Eigen::Index columns = std::min<Eigen::Index>(kWidth, last - begin);
+    const Eigen::Index width = std::min<Eigen::Index>(kWidth, last - begin);
+    double* const panel = columns.first + begin * stride;
     for (std::size_t row = 0; row < place_.size(); ++row) {
       if (place_[row] < 0) continue;
       Row<Scalar, N>& to = y[static_cast<std::size_t>(place_[row])];
-      const double* from = b.data() + begin * stride + static_cast<Eigen::Index>(row);
-      for (Eigen::Index c = 0; c < columns; ++c, from += stride) {
+      const double* from = panel + columns.row_stride * static_cast<Eigen::Index>(row);
+      for (Eigen::Index c = 0; c < width; ++c, from += stride) {
         to.vectors[c / kLanes<Scalar>][c % kLanes<Scalar>] = static_cast<Scalar>(*from);
       }
     }
     substitute<Scalar, N>({supernodes_, rows_.data(), values_.data()}, y.data());
     for (std::size_t row = 0; row < place_.size(); ++row) {
-      if (place_[row] < 0) continue;
+      double* to = panel + columns.row_stride * static_cast<Eigen::Index>(row);
+      if (place_[row] < 0) {
+        for (Eigen::Index c = 0; c < width; ++c, to += stride) *to = 0;
+        continue;
+      }
       const Row<Scalar, N>& from = y[static_cast<std::size_t>(place_[row])];
-      double* to = x.data() + begin * stride + static_cast<Eigen::Index>(row);
-      for (Eigen::Index c = 0; c < columns; ++c, to += stride) {
+      for (Eigen::Index c = 0; c < width; ++c, to += stride) {
         *to = from.vectors[c / kLanes<Scalar>][c % kLanes<Scalar>];
       }
     }
@@ -258,21 +270,31 @@ void PackedFactor<Scalar>::solve_panels(const Eigen::MatrixXd& b, Eigen::Index f
 }
 
 template <class Scalar>
-Eigen::MatrixXd PackedFactor<Scalar>::solve(const Eigen::MatrixXd& b) const {
-  Eigen::MatrixXd x = Eigen::MatrixXd::Zero(b.rows(), b.cols());
+void PackedFactor<Scalar>::solve_all(const Columns& columns) const {
   constexpr Eigen::Index kWidest = kMostVectors * kLanes<Scalar>;
-  const Eigen::Index whole = b.cols() / kWidest * kWidest, left = b.cols() - whole;
-  if (whole > 0) solve_panels<kMostVectors>(b, 0, whole, x);
+  const Eigen::Index whole = columns.count / kWidest * kWidest, left = columns.count - whole;
+  if (whole > 0) solve_panels<kMostVectors>(columns, 0, whole);
   if (left > 3 * kLanes<Scalar>) {
-    solve_panels<6>(b, whole, b.cols(), x);
+    solve_panels<6>(columns, whole, columns.count);
   } else if (left > 2 * kLanes<Scalar>) {
-    solve_panels<3>(b, whole, b.cols(), x);
+    solve_panels<3>(columns, whole, columns.count);
   } else if (left > kLanes<Scalar>) {
-    solve_panels<2>(b, whole, b.cols(), x);
+    solve_panels<2>(columns, whole, columns.count);
   } else if (left > 0) {
-    solve_panels<1>(b, whole, b.cols(), x);
+    solve_panels<1>(columns, whole, columns.count);
   }
+}
+
+template <class Scalar>
+Eigen::MatrixXd PackedFactor<Scalar>::solve(const Eigen::MatrixXd& b) const {
+  Eigen::MatrixXd x = b;
+  solve_all({x.data(), x.cols(), 1, x.rows()});
   return x;
+}
+
+template <class Scalar>
+void PackedFactor<Scalar>::solve_in_place(ColumnRows& columns) const {
+  solve_all({columns.data(), columns.cols(), columns.cols(), 1});
 }
 
 template <class Scalar>

@@ -5,6 +5,8 @@
 #include <span>
 #include <vector>
 
+#include "morphbake/linear/symmetric_system.h"
+
 namespace morphbake {
 
 /// A Cholesky factor P A P^T = L L^T by supernodes: columns beside each other with the same rows
@@ -50,13 +52,17 @@ class PackedFactor {
   /// @param b  #A by any number of columns; rounded to Scalar
   Eigen::MatrixXd solve(const Eigen::MatrixXd& b) const;
 
+  /// b <- X, of columns whose rows lie together.
+  void solve_in_place(ColumnRows& columns) const;
+
   std::size_t bytes() const;
 
  private:
   void pack(const SupernodalFactor& factor, std::size_t supernode);
+  struct Columns;
+  void solve_all(const Columns& columns) const;
   template <int N>
-  void solve_panels(const Eigen::MatrixXd& b, Eigen::Index first, Eigen::Index last,
-                    Eigen::MatrixXd& x) const;
+  void solve_panels(const Columns& columns, Eigen::Index first, Eigen::Index last) const;
 
   std::vector<int> place_;  ///< #A: each row's in the factor, or -1
   std::size_t factored_rows_ = 0;

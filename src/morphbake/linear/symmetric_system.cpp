@@ -1,8 +1,10 @@
 #include "morphbake/linear/symmetric_system.h"
 
 namespace morphbake {
+namespace {
 
-void remove_block_means(const SymmetricSystem& system, Eigen::MatrixXd& columns) {
+template <class Columns>
+void remove_means(const SymmetricSystem& system, Columns& columns) {
   if (system.singular_block_count == 0) return;
   Eigen::MatrixXd sums = Eigen::MatrixXd::Zero(system.singular_block_count, columns.cols());
   Eigen::VectorXd counts = Eigen::VectorXd::Zero(system.singular_block_count);
@@ -16,6 +18,16 @@ void remove_block_means(const SymmetricSystem& system, Eigen::MatrixXd& columns)
     const int block = system.singular_block[static_cast<std::size_t>(row)];
     if (block >= 0) columns.row(row) -= sums.row(block) / counts(block);
   }
+}
+
+}  // namespace
+
+void remove_block_means(const SymmetricSystem& system, Eigen::MatrixXd& columns) {
+  remove_means(system, columns);
+}
+
+void remove_block_means(const SymmetricSystem& system, ColumnRows& columns) {
+  remove_means(system, columns);
 }
 
 }  // namespace morphbake

@@ -5,6 +5,9 @@
 
 namespace morphbake {
 
+/// Columns whose rows lie together: what belongs to one unknown is read at once.
+using ColumnRows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
 /// A symmetric positive semi-definite matrix that sees everything but the constants on some blocks.
 ///
 /// K_L of a component that nothing holds is such a block; a held component's matrix is definite.
@@ -17,6 +20,7 @@ struct SymmetricSystem {
 /// Takes the mean of each column over each singular block away: what is left is in the matrix's
 /// range.
 void remove_block_means(const SymmetricSystem& system, Eigen::MatrixXd& columns);
+void remove_block_means(const SymmetricSystem& system, ColumnRows& columns);
 
 /// How an iteration ended.
 struct Convergence {

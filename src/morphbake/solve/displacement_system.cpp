@@ -234,11 +234,11 @@ Goal DisplacementSystem::goal(const Eigen::MatrixXd& change) const {
 }
 
 Goal DisplacementSystem::goal_of_shape(const Positions& b, const Positions& blend,
-                                       std::vector<bool> is_blend,
-                                       const Positions& reference) const {
+                                       std::vector<bool> is_blend, const Positions& reference,
+                                       const Positions& start) const {
   Goal goal;
   goal.blend = blend - reference;
-  goal.start = goal.blend;
+  goal.start = start - reference;
   goal.uniform = std::move(is_blend);
   goal.imbalance = Positions::Zero(components_.count, 3);
   require_finite(goal.blend, "blended",

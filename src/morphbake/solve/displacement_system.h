@@ -57,9 +57,10 @@ class DisplacementSystem {
   /// @param blend      #V by 3: where held vertices stand, and what the gauge follows
   /// @param is_blend   one a component: whether the blend is the shape
   /// @param reference  #V by 3
+  /// @param start      #V by 3: close to the shape
   /// @throws BakeError "solve.not-finite"
   Goal goal_of_shape(const Positions& b, const Positions& blend, std::vector<bool> is_blend,
-                     const Positions& reference) const;
+                     const Positions& reference, const Positions& start) const;
 
   /// Held vertices displaced as given, and nothing else asked for: minimises |L u| over the others.
   ///

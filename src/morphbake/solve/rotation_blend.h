@@ -13,7 +13,7 @@
 
 namespace morphbake {
 
-/// How all shapes of a mesh are turned and stretched against the first.
+/// How all shapes of a mesh are turned against the first.
 struct SourceDeformations {
   std::vector<Edge> edges;
   std::vector<Deformation> against_first;  ///< one a further source
@@ -21,8 +21,19 @@ struct SourceDeformations {
 
 SourceDeformations source_deformations(const MorphableMesh& mesh);
 
-/// Blends shapes that are turned against one another: the rotations of their gradients edge by
-/// edge, what they stretch vertex by vertex. Edges keep their lengths, bent parts their volume.
+struct LaneFrames;
+struct LaneQuaternion;
+struct TurnedShapes;
+
+/// A shape by its differences.
+struct BlendedShape {
+  Positions differences;           ///< #V by 3: b of K_L V = b, sums to 0 over each component
+  std::optional<Positions> start;  ///< #V by 3: nearly V, but for a translation a component
+};
+
+/// Blends shapes that are turned against one another: their rotations along edges, and the edges
+/// themselves as they are when they are turned back. Edges keep their lengths, bent parts their
+/// volume.
 ///
 /// Along an edge (a, b) source s turns by l_s = log(R_a^T R_b) against the first one: little,
 /// however far the shapes are turned. Those of a transition state are sum_s T_s l_s; the rotations
@@ -33,10 +44,12 @@ class RotationBlend {
  public:
   /// @param mesh          must outlive this
   /// @param deformations  of its sources
+  /// @param system        of the mesh: what is held and where the rest stands
   /// @param reference     shares of what is held: #sources by 1
   /// @throws BakeError "linear.out-of-memory"
   RotationBlend(const MorphableMesh& mesh, std::shared_ptr<const SourceDeformations> deformations,
-                const Constraints& constraints, const Eigen::VectorXd& reference);
+                const DisplacementSystem& system, const Eigen::VectorXd& reference);
+  ~RotationBlend();
 
   /// The rotations of transition states: least squares of log(R_a exp(sum_s T_s l_s) R_b^T).
   ///
@@ -45,46 +58,48 @@ class RotationBlend {
   /// @param states  #sources by #V each; they share the passes over the factor
   std::vector<RotationField> rotations(std::span<const TransitionState> states) const;
 
-  /// b of K_L V = b: sums to 0 over each component.
+  /// The shapes of transition states. May be called from several threads. Where nothing is held the
+  /// rotations are fitted to the shape that they give, as ARAP does, but for what that does to the
+  /// sources themselves, which stay exact.
   ///
-  ///   b_a = sum_b (R_a (S_a e + r) + R_b (S_b e + r)) / 2
+  ///   b_a = sum_b sum_s (T_s,a R_a R_s,a^T + T_s,b R_b R_s,b^T) e_s / 2
   ///
-  /// with S = sum_s T_s S_s, the edge e of the first source, and r = sum_s T_s r_s, the sources'
-  /// remainders along it. It is exact where T is one source.
-  /// @return #V by 3
-  Positions differences(const TransitionState& T, const RotationField& rotations) const;
+  /// with the edge e_s of each source. It is exact where T is one source.
+  std::vector<BlendedShape> shapes(std::span<const TransitionState> states) const;
+
+  /// Where something is held: the differences of the reference's shape, held nowhere, not fitted.
+  const Positions& reference_differences() const { return reference_differences_; }
+
+  /// Of K_L of what is not held; of the system's equations where nothing is.
+  std::shared_ptr<const CholeskyFactor> factor() const { return factor_; }
 
  private:
-  struct Step {
-    int vertex = 0;
-    int edge = 0;
-    bool forward = false;  ///< from the edge's first vertex to its second
-  };
-
   void choose_roots();
   void plan_tree();
   void factorise();
+  void fit_sources();
   Positions unrolled(const Deformation& deformation) const;
-  Eigen::Vector3d turn_of(const TransitionState& T, std::size_t edge) const;
-  RotationField first_guess(const TransitionState& T) const;
-  Eigen::MatrixXd misfits(const TransitionState& T, const RotationField& rotations) const;
-  double turn_by(const Eigen::MatrixXd& phi, RotationField& rotations) const;
-  void turn_back(const RotationField& guess, RotationField& rotations) const;
+  LaneFrames first_guess(std::span<const TransitionState> states) const;
+  std::vector<LaneFrames> synchronised(std::span<const TransitionState> states) const;
+  void fit(std::vector<LaneFrames>& groups) const;
+  std::vector<Positions> differences_of(const std::vector<LaneFrames>& groups) const;
+  std::vector<LaneQuaternion> rotations_at_roots(const LaneFrames& frames) const;
 
   const MorphableMesh& mesh_;
-  OneRings rings_;
-  Components components_;
   std::shared_ptr<const SourceDeformations> source_deformations_;
   const std::vector<Edge>& edges_;                ///< of the above
   const std::vector<Deformation>& deformations_;  ///< likewise
+  std::unique_ptr<TurnedShapes> turned_;
+  Components components_;
   std::vector<bool> held_;
+  bool holds_;
   Eigen::VectorXd gauge_;
-  std::vector<int> root_;      ///< one a component; -1 where something is held
-  std::vector<Step> tree_;     ///< from the roots and what is held outwards
-  RotationField reference_;    ///< #V where something is held: the rotations of what is
-  std::vector<int> unknown_;   ///< #V: -1 where held
-  SymmetricSystem equations_;  ///< K_L of what is not held
-  std::optional<CholeskyFactor> factor_;
+  std::vector<int> root_;            ///< one a component; -1 where something is held
+  RotationField reference_;          ///< #V where something is held: the rotations of what is
+  Positions reference_differences_;  ///< likewise
+  std::vector<int> unknown_;         ///< #V: -1 where held
+  SymmetricSystem equations_;        ///< K_L of what is not held
+  std::shared_ptr<const CholeskyFactor> factor_;
 };
 
 }  // namespace morphbake

@@ -52,14 +52,19 @@ std::vector<Goal> goals_of_rotations(const DisplacementSystem& system, const Rot
     known.push_back(are_sources(system.components(), T));
     if (contains(known.back(), false)) unknown.push_back(T);
   }
-  const std::vector<RotationField> rotations = blend.rotations(unknown);
+  const std::vector<BlendedShape> shapes = blend.shapes(unknown);
   std::vector<Goal> goals;
   std::size_t next = 0;
   for (std::size_t i = 0; i < states.size(); ++i) {
     const Positions mixed = mixed_vertices(system, mesh, states[i], rest);
-    const Positions b = contains(known[i], false) ? blend.differences(states[i], rotations[next++])
-                                                  : Positions::Zero(rest.rows(), 3);
-    goals.push_back(system.goal_of_shape(b, mixed, std::move(known[i]), rest));
+    if (!contains(known[i], false)) {
+      goals.push_back(system.goal_of_shape(Positions::Zero(rest.rows(), 3), mixed,
+                                           std::move(known[i]), rest, mixed));
+      continue;
+    }
+    const BlendedShape& shape = shapes[next++];
+    goals.push_back(system.goal_of_shape(shape.differences, mixed, std::move(known[i]), rest,
+                                         shape.start.value_or(mixed)));
   }
   return goals;
 }
@@ -82,8 +87,8 @@ StateSystem states_of_shapes(const MorphableMesh& mesh, StateSystem states, cons
         }
       }
       std::vector<bool> all(static_cast<std::size_t>(system.components().count), true);
-      goals.push_back(
-          system.goal_of_shape(Positions::Zero(rest.rows(), 3), positions, std::move(all), rest));
+      goals.push_back(system.goal_of_shape(Positions::Zero(rest.rows(), 3), positions,
+                                           std::move(all), rest, positions));
     }
     return goals;
   };
@@ -94,7 +99,7 @@ StateSystem states_of_shapes(const MorphableMesh& mesh, StateSystem states, cons
 
 StateSystem laplacian_states(const MorphableMesh& mesh, const Shares& reference,
                              std::unique_ptr<DisplacementSystem> displacements) {
-  StateSystem states{reference, mixed_positions(mesh, reference), std::move(displacements), {}};
+  StateSystem states{reference, mixed_positions(mesh, reference), std::move(displacements), {}, {}};
   states.goals = [&system = *states.displacements,
                   start = uniform_transition(reference, mesh.connectivity.vertex_count)](
                      std::span<const TransitionState> moments) {
@@ -112,22 +117,22 @@ StateSystem rotation_states(const MorphableMesh& mesh,
                             const SolveOptions& options, const Observer& observer) {
   StateSystem states = laplacian_states(mesh, reference, std::move(displacements));
   const DisplacementSystem& system = *states.displacements;
-  if (system.holds()) {
+  const auto blend =
+      std::make_shared<const RotationBlend>(mesh, deformations, system, reference.col(0));
+  if (!system.holds()) states.factor = blend->factor();
+  const bool is_mix = (reference.col(0).array() != 0).count() > 1;
+  if (system.holds() && is_mix) {
     // What is held stands as the reference does when nothing is.
     Constraints free = system.constraints();
     free.held.assign(free.held.size(), false);
-    const RotationBlend blend(mesh, deformations, free, reference.col(0));
     const DisplacementSystem whole(mesh, std::move(free), options.right_hand_side);
-    const TransitionState T = uniform_transition(reference, mesh.connectivity.vertex_count);
-    Goal goal = goals_of_rotations(whole, blend, mesh, {&T, 1}, states.rest).front();
-    if (!goal.is_blend()) {
-      const SurfaceSolver solver(whole, options, observer);
-      std::vector<SolveRecord> records;
-      states.rest += solve_goal(solver, std::move(goal), "", records);
-    }
+    const std::vector<bool> none(static_cast<std::size_t>(whole.components().count), false);
+    Goal goal = whole.goal_of_shape(blend->reference_differences(), states.rest, none, states.rest,
+                                    states.rest);
+    const SurfaceSolver solver(whole, options, observer);
+    std::vector<SolveRecord> records;
+    states.rest += solve_goal(solver, std::move(goal), "", records);
   }
-  const auto blend = std::make_shared<const RotationBlend>(mesh, deformations, system.constraints(),
-                                                           reference.col(0));
   states.goals = [&mesh, &system, blend,
                   rest = states.rest](std::span<const TransitionState> moments) {
     return goals_of_rotations(system, *blend, mesh, moments, rest);

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "morphbake/diagnostics/observer.h"
+#include "morphbake/linear/cholesky_factor.h"
 #include "morphbake/solve/displacement_system.h"
 #include "morphbake/solve/rotation_blend.h"
 #include "morphbake/transition/timeline.h"
@@ -17,6 +18,8 @@ struct StateSystem {
   Shares reference;  ///< the same at every vertex; what is held has them at all times
   Positions rest;    ///< #V by 3: the reference's shape, from which displacements start
   std::unique_ptr<DisplacementSystem> displacements;
+  /// Of the displacements' equations, in float32, where the goals need it; else none.
+  std::shared_ptr<const CholeskyFactor> factor;
   /// One goal a state. May be called from several threads.
   std::function<std::vector<Goal>(std::span<const TransitionState>)> goals;
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "morphbake/diagnostics/problem.h"
 
@@ -77,7 +78,7 @@ SolverChoice choose_solver(const DisplacementSystem& system, const SolveOptions&
 }
 
 SurfaceSolver::SurfaceSolver(const DisplacementSystem& system, const SolveOptions& options,
-                             const Observer& observer)
+                             const Observer& observer, std::shared_ptr<const CholeskyFactor> single)
     : system_(system),
       options_(options),
       observer_(observer),
@@ -85,8 +86,12 @@ SurfaceSolver::SurfaceSolver(const DisplacementSystem& system, const SolveOption
   if (choice_.solver == Solver::Direct || choice_.solver == Solver::Warm) {
     // Corrections of L^T L by a float32 factor barely contract.
     const bool is_single = choice_.solver == Solver::Warm && !system.holds();
-    method_.emplace<CholeskyFactor>(system.equations(),
-                                    is_single ? Precision::Single : Precision::Double);
+    if (is_single && single) {
+      method_ = std::move(single);
+    } else {
+      method_ = std::make_shared<const CholeskyFactor>(
+          system.equations(), is_single ? Precision::Single : Precision::Double);
+    }
   } else if (choice_.solver == Solver::ConjugateGradients) {
     method_.emplace<IncompleteFactor>(system.equations());
   }
@@ -94,8 +99,8 @@ SurfaceSolver::SurfaceSolver(const DisplacementSystem& system, const SolveOption
 }
 
 std::size_t SurfaceSolver::factor_bytes() const {
-  const auto* factor = std::get_if<CholeskyFactor>(&method_);
-  return factor == nullptr ? 0 : factor->bytes();
+  const auto* factor = std::get_if<Factor>(&method_);
+  return factor == nullptr ? 0 : (*factor)->bytes();
 }
 
 /// Solves for the surface itself, which is as smooth as errors that die last.
@@ -108,7 +113,7 @@ void SurfaceSolver::calibrate() {
                      measure_amplification(equations, iteration(), known, options_.max_iterations);
     return;
   }
-  Eigen::MatrixXd error = std::get<CholeskyFactor>(method_).solve(equations.matrix * known) - known;
+  Eigen::MatrixXd error = std::get<Factor>(method_)->solve(equations.matrix * known) - known;
   remove_block_means(equations, error);
   contraction_ =
       kContractionMargin * std::max(kSmallestContraction, largest_row(error) / system_.diagonal());
@@ -139,7 +144,7 @@ std::vector<Convergence> SurfaceSolver::solve(const std::vector<Goal>& goals,
 
 std::vector<Convergence> SurfaceSolver::solve_by_factor(const std::vector<Goal>& goals,
                                                         std::vector<Eigen::MatrixXd>& x) const {
-  const auto& factor = std::get<CholeskyFactor>(method_);
+  const CholeskyFactor& factor = *std::get<Factor>(method_);
   const double tolerance = options_.tolerance * system_.diagonal();
   const auto columns = static_cast<Eigen::Index>(3 * goals.size());
   std::vector<Convergence> reached(goals.size());

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <memory>
 #include <string>
 #include <variant>
 #include <vector>
@@ -30,8 +31,9 @@ SolverChoice choose_solver(const DisplacementSystem& system, const SolveOptions&
 class SurfaceSolver {
  public:
   /// @param system  must outlive the solver
+  /// @param single  a float32 factor of the system's equations, where somebody has one already
   SurfaceSolver(const DisplacementSystem& system, const SolveOptions& options,
-                const Observer& observer);
+                const Observer& observer, std::shared_ptr<const CholeskyFactor> single = nullptr);
 
   const SolverChoice& choice() const { return choice_; }
 
@@ -40,7 +42,7 @@ class SurfaceSolver {
   std::size_t factor_bytes() const;
 
   /// Whether a solve is cheaper from a start close by.
-  bool is_iterative() const { return !std::holds_alternative<CholeskyFactor>(method_); }
+  bool is_iterative() const { return !std::holds_alternative<Factor>(method_); }
 
   /// Solves for all goals at once: those with a factor share each pass over it.
   ///
@@ -52,18 +54,20 @@ class SurfaceSolver {
                                  std::vector<Eigen::MatrixXd>& x) const;
 
  private:
+  struct NoFactor {};
+
+  using Factor = std::shared_ptr<const CholeskyFactor>;
+
   std::vector<Convergence> solve_by_factor(const std::vector<Goal>& goals,
                                            std::vector<Eigen::MatrixXd>& x) const;
   Iteration iteration() const;
   void calibrate();
 
-  struct NoFactor {};
-
   const DisplacementSystem& system_;
   SolveOptions options_;
   const Observer& observer_;
   SolverChoice choice_;
-  std::variant<NoFactor, CholeskyFactor, IncompleteFactor> method_;
+  std::variant<NoFactor, Factor, IncompleteFactor> method_;
   double contraction_ = 0;    ///< share of the error that a correction by the factor leaves
   double amplification_ = 1;  ///< error beside the length of an iteration's step
 };
