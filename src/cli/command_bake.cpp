@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <memory>
+#include <optional>
 
 #include "cli/commands.h"
 #include "morphbake/bake/bake.h"
@@ -20,6 +21,7 @@ struct Arguments {
   std::string preview = "recipe";
   std::filesystem::path report;
   int threads = 0;
+  std::optional<double> memory_limit;
 };
 
 std::string shown_bytes(std::size_t bytes) {
@@ -100,6 +102,7 @@ void run_bake(const Arguments& arguments, Terminal& terminal) {
   BakeOptions options =
       read_options(recipe.options, location_in(recipe, "/options").file, arguments.settings);
   options.threads = arguments.threads;
+  if (arguments.memory_limit) options.solve.memory_limit = *arguments.memory_limit;
   if (!arguments.output_dir.empty()) {
     recipe = redirect_outputs(std::move(recipe), arguments.output_dir);
   }
@@ -137,6 +140,10 @@ Command add_bake(CLI::App& program) {
       ->add_option("--threads", arguments->threads, "0: all cores; changes the time, never a byte")
       ->check(CLI::Range(0, 1024))
       ->capture_default_str();
+  parser
+      ->add_option("--memory-limit", arguments->memory_limit,
+                   "GB: a factor that would take more is not made; slower (/solve/memory_limit)")
+      ->check(CLI::Range(0.0, 1e6));
   parser->footer(
       "\nExample: morphbake bake recipe.json --output-dir out --set /basis/easing_tolerance=1e-7");
   return {parser, [arguments](Terminal& terminal) { run_bake(*arguments, terminal); }};

@@ -12,6 +12,7 @@
 #include "bench/plain_factors.h"
 #include "bench/timing.h"
 #include "morphbake/linear/cholesky_factor.h"
+#include "morphbake/linear/multigrid.h"
 #include "morphbake/solve/solve_frames.h"
 #include "shapes/shapes.h"
 
@@ -155,7 +156,8 @@ void bench_pcg(const std::string& group, const Scene& scene, const DisplacementS
   const double factor = extrapolates ? std::sqrt(vertices / counted_vertices) : 1;
   const Goal goal = system.goal(scene.change_at(scene.times[8]));
   const Eigen::MatrixXd b = system.residual(goal, Eigen::MatrixXd::Zero(vertices, 3));
-  const IncompleteFactor preconditioner(system.equations());
+  const Multigrid multigrid(system.equations());
+  const auto preconditioner = [&](const auto& r) { return Eigen::MatrixXd(multigrid.cycle(r)); };
   StopRule stop;
   stop.max_iterations = kStepsMeasured;
   const double step =
@@ -171,6 +173,8 @@ void bench_pcg(const std::string& group, const Scene& scene, const DisplacementS
           : "measured";
   figures.push_back(
       {group, "pcg, warm, to 1e-6", step * counted.warm * factor * 1e3, "ms/frame", note});
+  figures.push_back({group, "multigrid, bytes a vertex",
+                     static_cast<double>(multigrid.bytes()) / vertices, "B", ""});
   figures.push_back({group, "pcg, warm steps", counted.warm * factor, "", note});
   figures.push_back({group, "pcg, cold steps", counted.cold * factor, "", note});
 }

@@ -15,6 +15,8 @@ bake bars
 [ "$(solve_of bars representation)" = rotation ] || wrong "bars: $(solve_of bars representation), $(solve_of bars representation_reason)"
 [ "$(solve_of bars solver)" = warm ] || wrong "frames are solved by $(solve_of bars solver)"
 stderr_has '  rotation: half-way from "a" to "b" edges lose '
+run 0 bake bars.json -o little --memory-limit 0 --report little/report.json
+[ "$(solve_of little representation) $(solve_of little solver)" = "rotation pcg" ] || wrong "little memory: $(jq -c .solve little/report.json)"
 recipe creatures creature_base.glb creature_stout.glb
 bake creatures
 [ "$(solve_of creatures representation)" = laplacian ] || wrong "creatures: $(solve_of creatures representation), $(solve_of creatures representation_reason)"

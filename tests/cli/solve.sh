@@ -36,6 +36,11 @@ for solver in warm pcg gauss-seidel jacobi; do
   jq -e --arg solver $solver '.solve.solver == $solver and .solve.held == 0 and .solve.solves[0].iterations > 0 and
     .solve.solves[0].error <= 1e-5' $solver/report.json >/dev/null || wrong "odd report: $(jq -c .solve $solver/report.json)"
 done
+run 0 bake free.json -o little --memory-limit 0 --report little/report.json
+jq -e '.solve.solver == "pcg" and (.solve.reason | startswith("a factor would take about"))' little/report.json >/dev/null ||
+  wrong "odd report: $(jq -c .solve little/report.json)"
+run 1 bake free.json -o little --memory-limit much
+stderr_has '--memory-limit'
 run 2 bake held.json -o out --set /solve/solver=jacobi
 stderr_has "[options.cannot-hold]"
 run 5 bake free.json -o out --set /solve/solver=gauss-seidel --set /solve/max_iterations=40

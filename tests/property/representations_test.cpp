@@ -37,6 +37,7 @@ struct Rule {
   HoldRule hold = HoldRule::Nothing;
   std::vector<bool> held = {};
   Shares reference = Shares(0, 0);  ///< none: the first source
+  SolveOptions options = {};
 };
 
 /// A mesh with its system, ready to give the shape of any transition state.
@@ -53,9 +54,9 @@ class Shapes {
     auto displacements = std::make_unique<DisplacementSystem>(
         mesh, choose_constraints(mesh, components, untouched, {rule.hold, rule.held, {}, -1}),
         RightHandSide::Edge);
-    states_ = std::make_unique<StateSystem>(
-        rotation_states(mesh, deformations_, reference, std::move(displacements), {}, nobody_));
-    solver_ = std::make_unique<SurfaceSolver>(*states_->displacements, SolveOptions{}, nobody_,
+    states_ = std::make_unique<StateSystem>(rotation_states(
+        mesh, deformations_, reference, std::move(displacements), rule.options, nobody_));
+    solver_ = std::make_unique<SurfaceSolver>(*states_->displacements, rule.options, nobody_,
                                               states_->factor);
   }
 
@@ -175,6 +176,14 @@ TEST(Rotation, ATurnedSourceChangesTheRigidPathAlone) {
                          rigid.col(3).head<3>().transpose();
   EXPECT_LT(largest_distance(back, plain), 1e-9);
   EXPECT_GT(largest_distance(moved, plain), 0.1);
+}
+
+TEST(Rotation, WithoutAFactorTheSame) {
+  const MorphableMesh mesh = bars(120, 270);
+  Rule little;
+  little.options.memory_limit = 0;
+  const Eigen::Vector2d half(0.5, 0.5);
+  EXPECT_LT(largest_distance(Shapes(mesh, little).of_mix(half), Shapes(mesh).of_mix(half)), 1e-6);
 }
 
 TEST(Rotation, OfThreeSources) {

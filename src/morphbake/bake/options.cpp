@@ -39,6 +39,7 @@ constexpr Field<SolveOptions> solve_fields[] = {
     {"right_hand_side", &SolveOptions::right_hand_side},
     {"tolerance", &SolveOptions::tolerance},
     {"max_iterations", &SolveOptions::max_iterations},
+    {"memory_limit", &SolveOptions::memory_limit},
     {"every_frame", &SolveOptions::every_frame},
 };
 

@@ -36,19 +36,22 @@ class IncompleteFactor {
   /// @throws BakeError "linear.not-definite"
   explicit IncompleteFactor(const SymmetricSystem& system);
 
-  /// One column a call.
-  Eigen::VectorXd solve(const Eigen::VectorXd& r) const { return factor_.solve(r); }
+  /// @param r  #X by any number of columns
+  Eigen::MatrixXd solve(const Eigen::MatrixXd& r) const;
 
  private:
   Eigen::IncompleteCholesky<double> factor_;
 };
+
+/// About X with A X = r: symmetric and positive.
+using Preconditioner = std::function<Eigen::MatrixXd(const Eigen::MatrixXd& r)>;
 
 /// Conjugate gradients with a preconditioner, the columns side by side, each with its own steps.
 ///
 /// Means over singular blocks are projected out of the preconditioned residual: rounding would feed
 /// them otherwise.
 Convergence iterate_conjugate_gradients(const SymmetricSystem& system,
-                                        const IncompleteFactor& preconditioner,
+                                        const Preconditioner& preconditioner,
                                         const Eigen::MatrixXd& b, const StopRule& stop,
                                         Eigen::MatrixXd& x);
 

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "morphbake/differential/rotation_vector.h"
+#include "morphbake/linear/iterate.h"
 #include "morphbake/solve/rotation_passes.h"
 
 namespace morphbake {
@@ -81,7 +82,8 @@ SourceDeformations source_deformations(const MorphableMesh& mesh) {
 
 RotationBlend::RotationBlend(const MorphableMesh& mesh,
                              std::shared_ptr<const SourceDeformations> deformations,
-                             const DisplacementSystem& system, const Eigen::VectorXd& reference)
+                             const DisplacementSystem& system, const Eigen::VectorXd& reference,
+                             bool makes_factor)
     : mesh_(mesh),
       source_deformations_(std::move(deformations)),
       edges_(source_deformations_->edges),
@@ -90,7 +92,8 @@ RotationBlend::RotationBlend(const MorphableMesh& mesh,
       components_(system.components()),
       held_(mesh.connectivity.vertex_count, false),
       holds_(system.holds()),
-      gauge_(system.constraints().gauge) {
+      gauge_(system.constraints().gauge),
+      makes_factor_(makes_factor) {
   choose_roots();
   plan_tree();
   factorise();
@@ -211,7 +214,29 @@ void RotationBlend::factorise() {
   }
   equations_.matrix.resize(count, count);
   equations_.matrix.setFromTriplets(entries.begin(), entries.end());
-  factor_ = std::make_shared<const CholeskyFactor>(equations_, Precision::Single);
+  if (makes_factor_) {
+    factor_ = std::make_shared<const CholeskyFactor>(equations_, Precision::Single);
+  } else {
+    multigrid_ = std::make_unique<const Multigrid>(equations_);
+  }
+}
+
+/// By the float32 factor, or as well as that.
+void RotationBlend::solve_in_place(ColumnRows& columns) const {
+  if (factor_) return factor_->solve_in_place(columns);
+  constexpr double kSingle = 1e-6;
+  for (Eigen::Index first = 0; first < columns.cols(); first += 3) {
+    const Eigen::MatrixXd b = columns.middleCols(first, 3);
+    Eigen::MatrixXd x = multigrid_->cycle(b);
+    StopRule stop;
+    stop.tolerance = kSingle * std::sqrt(x.rowwise().squaredNorm().maxCoeff());
+    stop.max_iterations = kMostSteps;
+    iterate_conjugate_gradients(
+        equations_,
+        [this](const Eigen::MatrixXd& r) { return Eigen::MatrixXd(multigrid_->cycle(r)); }, b, stop,
+        x);
+    columns.middleCols(first, 3) = x;
+  }
 }
 
 /// What the fit makes of the sources, which all fits leave away.
@@ -286,7 +311,7 @@ std::vector<LaneFrames> RotationBlend::synchronised(std::span<const TransitionSt
     for (std::size_t g = 0; g < groups.size(); ++g) {
       put_misfits(*turned_, groups[g], unknown_, static_cast<int>(g), columns);
     }
-    factor_->solve_in_place(columns);
+    solve_in_place(columns);
     remove_block_means(equations_, columns);
     for (std::size_t g = 0; g < groups.size(); ++g) {
       turn_by(columns, static_cast<int>(g), unknown_, kSettled, moves[g], groups[g]);
@@ -311,7 +336,7 @@ void RotationBlend::fit(std::vector<LaneFrames>& groups) const {
     for (std::size_t g = 0; g < groups.size(); ++g) {
       put_differences(*turned_, groups[g], Left::Residual, static_cast<int>(g), columns);
     }
-    factor_->solve_in_place(columns);
+    solve_in_place(columns);
     for (std::size_t g = 0; g < groups.size(); ++g) {
       move_by(columns, static_cast<int>(g), groups[g]);
       if (pass > 0) fit_rotations(*turned_, kRelaxation, groups[g]);

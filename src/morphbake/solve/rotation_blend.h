@@ -8,6 +8,7 @@
 #include "morphbake/connectivity/morphable_mesh.h"
 #include "morphbake/differential/deformation.h"
 #include "morphbake/linear/cholesky_factor.h"
+#include "morphbake/linear/multigrid.h"
 #include "morphbake/solve/displacement_system.h"
 #include "morphbake/transition/timeline.h"
 
@@ -46,9 +47,11 @@ class RotationBlend {
   /// @param deformations  of its sources
   /// @param system        of the mesh: what is held and where the rest stands
   /// @param reference     shares of what is held: #sources by 1
+  /// @param makes_factor  else its systems are solved by conjugate gradients, with less memory
   /// @throws BakeError "linear.out-of-memory"
   RotationBlend(const MorphableMesh& mesh, std::shared_ptr<const SourceDeformations> deformations,
-                const DisplacementSystem& system, const Eigen::VectorXd& reference);
+                const DisplacementSystem& system, const Eigen::VectorXd& reference,
+                bool makes_factor = true);
   ~RotationBlend();
 
   /// The rotations of transition states: least squares of log(R_a exp(sum_s T_s l_s) R_b^T).
@@ -70,7 +73,7 @@ class RotationBlend {
   /// Where something is held: the differences of the reference's shape, held nowhere, not fitted.
   const Positions& reference_differences() const { return reference_differences_; }
 
-  /// Of K_L of what is not held; of the system's equations where nothing is.
+  /// Of K_L of what is not held; of the system's equations where nothing is. May be none.
   std::shared_ptr<const CholeskyFactor> factor() const { return factor_; }
 
  private:
@@ -82,6 +85,7 @@ class RotationBlend {
   LaneFrames first_guess(std::span<const TransitionState> states) const;
   std::vector<LaneFrames> synchronised(std::span<const TransitionState> states) const;
   void fit(std::vector<LaneFrames>& groups) const;
+  void solve_in_place(ColumnRows& columns) const;
   std::vector<Positions> differences_of(const std::vector<LaneFrames>& groups) const;
   std::vector<LaneQuaternion> rotations_at_roots(const LaneFrames& frames) const;
 
@@ -99,7 +103,9 @@ class RotationBlend {
   Positions reference_differences_;  ///< likewise
   std::vector<int> unknown_;         ///< #V: -1 where held
   SymmetricSystem equations_;        ///< K_L of what is not held
+  bool makes_factor_;
   std::shared_ptr<const CholeskyFactor> factor_;
+  std::unique_ptr<const Multigrid> multigrid_;  ///< instead
 };
 
 }  // namespace morphbake

@@ -21,6 +21,8 @@ struct SolveOptions {
   double tolerance = 1e-9;
   /// Sweeps or steps of one solve before it counts as not converging.
   int max_iterations = 200000;
+  /// GB: systems whose factor would take more are solved by conjugate gradients.
+  double memory_limit = 12;
   /// Solves every frame, as the paper does, instead of the few shapes that the timeline separates
   /// into.
   bool every_frame = false;

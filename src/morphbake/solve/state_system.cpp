@@ -117,8 +117,8 @@ StateSystem rotation_states(const MorphableMesh& mesh,
                             const SolveOptions& options, const Observer& observer) {
   StateSystem states = laplacian_states(mesh, reference, std::move(displacements));
   const DisplacementSystem& system = *states.displacements;
-  const auto blend =
-      std::make_shared<const RotationBlend>(mesh, deformations, system, reference.col(0));
+  const auto blend = std::make_shared<const RotationBlend>(
+      mesh, deformations, system, reference.col(0), allows_factor(system, options));
   if (!system.holds()) states.factor = blend->factor();
   const bool is_mix = (reference.col(0).array() != 0).count() > 1;
   if (system.holds() && is_mix) {

@@ -14,7 +14,6 @@ namespace {
 /// Bytes of a float64 factor a row, measured at 100k vertices (pipeline/bench): K_L and L^T L.
 constexpr double kHarmonicBytes = 850;
 constexpr double kHeldBytes = 1700;
-constexpr double kLargestFactor = 12e9;
 
 constexpr int kCorrectionLimit = 8;
 constexpr double kSmallestContraction = 1e-15;
@@ -50,6 +49,10 @@ Problem no_convergence(const SolverChoice& choice, const Convergence& reached,
 
 }  // namespace
 
+bool allows_factor(const DisplacementSystem& system, const SolveOptions& options) {
+  return expected_factor_bytes(system) <= 1e9 * options.memory_limit;
+}
+
 SolverChoice choose_solver(const DisplacementSystem& system, const SolveOptions& options) {
   const bool relaxes = options.solver == Solver::Jacobi || options.solver == Solver::GaussSeidel;
   if (relaxes && system.holds()) {
@@ -64,9 +67,10 @@ SolverChoice choose_solver(const DisplacementSystem& system, const SolveOptions&
   }
   if (options.solver != Solver::Auto) return {options.solver, "as the options say"};
   const double gigabytes = expected_factor_bytes(system) / 1e9;
-  if (expected_factor_bytes(system) > kLargestFactor) {
+  if (!allows_factor(system, options)) {
     return {Solver::ConjugateGradients,
-            fmt::format("a factor would take about {:.0f} GB", gigabytes)};
+            fmt::format("a factor would take about {:.2g} GB, of {:.2g}", gigabytes,
+                        options.memory_limit)};
   }
   if (options.every_frame) {
     return {Solver::Warm,
@@ -93,7 +97,11 @@ SurfaceSolver::SurfaceSolver(const DisplacementSystem& system, const SolveOption
           system.equations(), is_single ? Precision::Single : Precision::Double);
     }
   } else if (choice_.solver == Solver::ConjugateGradients) {
-    method_.emplace<IncompleteFactor>(system.equations());
+    if (system.holds()) {
+      method_.emplace<IncompleteFactor>(system.equations());  // L^T L is no Laplacian
+    } else {
+      method_.emplace<Multigrid>(system.equations());
+    }
   }
   calibrate();
 }
@@ -175,6 +183,15 @@ std::vector<Convergence> SurfaceSolver::solve_by_factor(const std::vector<Goal>&
   return reached;
 }
 
+Preconditioner SurfaceSolver::preconditioner() const {
+  if (const auto* multigrid = std::get_if<Multigrid>(&method_)) {
+    return [multigrid](const Eigen::MatrixXd& r) { return Eigen::MatrixXd(multigrid->cycle(r)); };
+  }
+  return [&factor = std::get<IncompleteFactor>(method_)](const Eigen::MatrixXd& r) {
+    return factor.solve(r);
+  };
+}
+
 Iteration SurfaceSolver::iteration() const {
   const SymmetricSystem& equations = system_.equations();
   switch (choice_.solver) {
@@ -187,9 +204,8 @@ Iteration SurfaceSolver::iteration() const {
         return iterate_gauss_seidel(equations, b, stop, x);
       };
     default:
-      return [&equations, &factor = std::get<IncompleteFactor>(method_)](
-                 const auto& b, const StopRule& stop, auto& x) {
-        return iterate_conjugate_gradients(equations, factor, b, stop, x);
+      return [&equations, by = preconditioner()](const auto& b, const StopRule& stop, auto& x) {
+        return iterate_conjugate_gradients(equations, by, b, stop, x);
       };
   }
 }

@@ -9,9 +9,13 @@
 #include "morphbake/diagnostics/observer.h"
 #include "morphbake/linear/cholesky_factor.h"
 #include "morphbake/linear/iterate.h"
+#include "morphbake/linear/multigrid.h"
 #include "morphbake/solve/displacement_system.h"
 
 namespace morphbake {
+
+/// Whether a factor of the system's equations stays below the memory limit.
+bool allows_factor(const DisplacementSystem& system, const SolveOptions& options);
 
 /// Which solver, and why.
 struct SolverChoice {
@@ -60,6 +64,7 @@ class SurfaceSolver {
 
   std::vector<Convergence> solve_by_factor(const std::vector<Goal>& goals,
                                            std::vector<Eigen::MatrixXd>& x) const;
+  Preconditioner preconditioner() const;
   Iteration iteration() const;
   void calibrate();
 
@@ -67,7 +72,7 @@ class SurfaceSolver {
   SolveOptions options_;
   const Observer& observer_;
   SolverChoice choice_;
-  std::variant<NoFactor, Factor, IncompleteFactor> method_;
+  std::variant<NoFactor, Factor, IncompleteFactor, Multigrid> method_;
   double contraction_ = 0;    ///< share of the error that a correction by the factor leaves
   double amplification_ = 1;  ///< error beside the length of an iteration's step
 };

@@ -6,6 +6,7 @@
 #include "morphbake/differential/laplacian.h"
 #include "morphbake/linear/cholesky_factor.h"
 #include "morphbake/linear/iterate.h"
+#include "morphbake/linear/multigrid.h"
 #include "shapes/shapes.h"
 
 namespace morphbake {
@@ -111,9 +112,17 @@ class Iterations : public testing::TestWithParam<const char*> {
         return iterate_gauss_seidel(two.system, b, stop, x);
       };
     }
+    if (name == "pcg, multigrid") {
+      const auto multigrid = std::make_shared<Multigrid>(two.system);
+      return [&, multigrid](const auto& b, const auto& stop, auto& x) {
+        const auto cycle = [&](const auto& r) { return Eigen::MatrixXd(multigrid->cycle(r)); };
+        return iterate_conjugate_gradients(two.system, cycle, b, stop, x);
+      };
+    }
     const auto factor = std::make_shared<IncompleteFactor>(two.system);
     return [&, factor](const auto& b, const auto& stop, auto& x) {
-      return iterate_conjugate_gradients(two.system, *factor, b, stop, x);
+      const auto by_factor = [&](const auto& r) { return factor->solve(r); };
+      return iterate_conjugate_gradients(two.system, by_factor, b, stop, x);
     };
   }
 };
@@ -157,7 +166,33 @@ TEST_P(Iterations, NeedNothingFromTheSolutionOn) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Methods, Iterations,
-                         testing::Values("jacobi", "gauss-seidel", "conjugate-gradients"));
+                         testing::Values("jacobi", "gauss-seidel", "pcg, incomplete",
+                                         "pcg, multigrid"));
+
+TEST(Multigrid, NeedsAsManyStepsForLargeSystemsAsForSmall) {
+  for (const int side : {40, 160}) {
+    // With fans at the poles.
+    const Mesh mesh = test::joined(test::torus(2 * side, side), test::sphere(20, 2 * side));
+    const OneRings rings = one_rings({static_cast<int>(mesh.positions.rows()), mesh.triangles});
+    const Components components = connected_components(rings);
+    const SymmetricSystem system{symmetric_laplacian(rings), components.label, components.count};
+    const Multigrid multigrid(system);
+    Eigen::MatrixXd known = mesh.positions;
+    remove_block_means(system, known);
+    Eigen::MatrixXd x = Eigen::MatrixXd::Zero(known.rows(), 3);
+    StopRule stop;
+    stop.tolerance = 1e-9;
+    stop.max_iterations = 60;
+    const Convergence reached = iterate_conjugate_gradients(
+        system, [&](const auto& r) { return Eigen::MatrixXd(multigrid.cycle(r)); },
+        system.matrix * known, stop, x);
+    remove_block_means(system, x);
+    EXPECT_TRUE(reached.reached);
+    EXPECT_LT(reached.iterations, 30) << known.rows() << " rows";
+    EXPECT_LT((x - known).rowwise().norm().maxCoeff(), 1e-8);
+    EXPECT_LT(multigrid.bytes(), CholeskyFactor(system).bytes() / 3);
+  }
+}
 
 }  // namespace
 }  // namespace morphbake
