@@ -24,6 +24,13 @@ struct Arguments {
   std::optional<double> memory_limit;
 };
 
+/// Why a text is no size, or "".
+std::string not_a_size(const std::string& text) {
+  double gigabytes = 0;
+  const bool is_size = CLI::detail::lexical_cast(text, gigabytes) && gigabytes >= 0;
+  return is_size ? "" : "'" + text + "' is no number of GB, 0 or more";
+}
+
 std::string shown_bytes(std::size_t bytes) {
   if (bytes < 1000) return fmt::format("{} B", bytes);
   const double thousands = static_cast<double>(bytes) / 1000;
@@ -143,7 +150,7 @@ Command add_bake(CLI::App& program) {
   parser
       ->add_option("--memory-limit", arguments->memory_limit,
                    "GB: a factor that would take more is not made; slower (/solve/memory_limit)")
-      ->check(CLI::Range(0.0, 1e6));
+      ->check(not_a_size);
   parser->footer(
       "\nExample: morphbake bake recipe.json --output-dir out --set /basis/easing_tolerance=1e-7");
   return {parser, [arguments](Terminal& terminal) { run_bake(*arguments, terminal); }};

@@ -39,7 +39,7 @@ done
 run 0 bake free.json -o little --memory-limit 0 --report little/report.json
 jq -e '.solve.solver == "pcg" and (.solve.reason | startswith("a factor would take about"))' little/report.json >/dev/null ||
   wrong "odd report: $(jq -c .solve little/report.json)"
-run 1 bake free.json -o little --memory-limit much
+run 2 bake free.json -o little --memory-limit much
 stderr_has '--memory-limit'
 run 2 bake held.json -o out --set /solve/solver=jacobi
 stderr_has "[options.cannot-hold]"
