@@ -75,9 +75,11 @@ struct Frames {
 };
 
 StateSystem turned(const TurnedBar& bar) {
+  SolveOptions options;
+  options.frames = kFrames;
   return rotation_states(bar.mesh,
                          std::make_shared<SourceDeformations>(source_deformations(bar.mesh)),
-                         Eigen::Vector2d(1, 0), bar.system(), {}, nobody);
+                         Eigen::Vector2d(1, 0), bar.system(), options, nobody);
 }
 
 }  // namespace

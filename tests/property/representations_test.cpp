@@ -134,7 +134,7 @@ TEST(Rotation, EveryVertexIsAtRestBetweenItsNeighbours) {
   const MorphableMesh mesh = bars(120, 270);
   const Shapes shapes(mesh);
   const RotationBlend blend(mesh, std::make_shared<SourceDeformations>(shapes.deformations()),
-                            *shapes.states().displacements, Eigen::Vector2d(1, 0));
+                            *shapes.states().displacements, Eigen::Vector2d(1, 0), {});
   TransitionState T(2, mesh.connectivity.vertex_count);
   for (Eigen::Index v = 0; v < T.cols(); ++v) {
     const double share = std::clamp(mesh.geometries[0](v, 1) + 0.2, 0.0, 1.0);

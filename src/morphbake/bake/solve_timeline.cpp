@@ -72,10 +72,11 @@ void check_still_regions(const Recipe& recipe, const RegionFields& regions) {
 }
 
 /// The options, with every frame solved where there is no other way.
-SolveOptions options_for(Representation representation, const TimelineChanges& changes,
-                         SolveOptions options) {
+SolveOptions options_for(const Recipe& recipe, Representation representation,
+                         const TimelineChanges& changes, SolveOptions options) {
   options.every_frame =
       options.every_frame || !changes.separable || representation != Representation::Laplacian;
+  if (options.every_frame) options.frames = static_cast<int>(frame_times(recipe.timeline).size());
   return options;
 }
 
@@ -138,7 +139,7 @@ void check_timeline(const Recipe& recipe, const MorphableMesh& mesh, const Regio
       changes_of(recipe, regions, count,
                  shapes_of(recipe, regions, count, representation, options, observer), observer);
   choose_solver(*timeline_system(recipe, mesh, regions, changes, options),
-                options_for(representation, changes, options));
+                options_for(recipe, representation, changes, options));
 }
 
 std::unique_ptr<SolvedTimeline> solve_timeline(const Recipe& recipe, const MorphableMesh& mesh,
@@ -152,10 +153,10 @@ std::unique_ptr<SolvedTimeline> solve_timeline(const Recipe& recipe, const Morph
   TimelineChanges changes =
       changes_of(recipe, regions, count,
                  shapes_of(recipe, regions, count, representation, options, observer), observer);
+  const SolveOptions solving = options_for(recipe, representation, changes, options);
   solved->states = std::make_unique<StateSystem>(
       make_states(mesh, changes.reference, solved->representation,
-                  timeline_system(recipe, mesh, regions, changes, options), options, observer));
-  const SolveOptions solving = options_for(representation, changes, options);
+                  timeline_system(recipe, mesh, regions, changes, options), solving, observer));
   const StateSystem& states = *solved->states;
   solved->separable = std::move(changes.separable);
   solved->solver =

@@ -23,10 +23,12 @@ namespace {
 struct Workspace {
   cholmod_common common{};
 
-  Workspace() {
+  explicit Workspace(Ordering ordering) {
     cholmod_start(&common);
     common.print = 0;
     common.supernodal = CHOLMOD_SUPERNODAL;
+    common.nmethods = 1;
+    common.method[0].ordering = ordering == Ordering::MinimumDegree ? CHOLMOD_AMD : CHOLMOD_METIS;
   }
 
   Workspace(const Workspace&) = delete;
@@ -114,14 +116,21 @@ PackedFactor<Scalar> packed(const cholmod_factor& factor, const std::vector<int>
 
 }  // namespace
 
-CholeskyFactor::CholeskyFactor(const SymmetricSystem& system, Precision precision) {
+Ordering cheaper_ordering(Eigen::Index rows, double solves) {
+  constexpr double kDissected = 3e7;  // rows that are solved for
+  return static_cast<double>(rows) * solves < kDissected ? Ordering::MinimumDegree
+                                                         : Ordering::NestedDissection;
+}
+
+CholeskyFactor::CholeskyFactor(const SymmetricSystem& system, Precision precision,
+                               Ordering ordering) {
   // With several threads OpenBLAS splits sums by their number, and so would the bytes differ.
   openblas_set_num_threads(1);
   const std::vector<int> free = free_rows(system);
   if (free.empty()) return;  // nothing is unknown, which CHOLMOD does not take
   Eigen::SparseMatrix<double> upper = upper_of(system.matrix, free);
   cholmod_sparse view = upper_view(upper);
-  Workspace workspace;
+  Workspace workspace(ordering);
   cholmod_factor* made = cholmod_analyze(&view, &workspace.common);
   const auto release = [&workspace](cholmod_factor* factor) {
     cholmod_free_factor(&factor, &workspace.common);

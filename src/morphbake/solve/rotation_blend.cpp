@@ -83,7 +83,7 @@ SourceDeformations source_deformations(const MorphableMesh& mesh) {
 RotationBlend::RotationBlend(const MorphableMesh& mesh,
                              std::shared_ptr<const SourceDeformations> deformations,
                              const DisplacementSystem& system, const Eigen::VectorXd& reference,
-                             bool makes_factor)
+                             const Effort& effort)
     : mesh_(mesh),
       source_deformations_(std::move(deformations)),
       edges_(source_deformations_->edges),
@@ -93,7 +93,7 @@ RotationBlend::RotationBlend(const MorphableMesh& mesh,
       held_(mesh.connectivity.vertex_count, false),
       holds_(system.holds()),
       gauge_(system.constraints().gauge),
-      makes_factor_(makes_factor) {
+      effort_(effort) {
   choose_roots();
   plan_tree();
   factorise();
@@ -214,8 +214,11 @@ void RotationBlend::factorise() {
   }
   equations_.matrix.resize(count, count);
   equations_.matrix.setFromTriplets(entries.begin(), entries.end());
-  if (makes_factor_) {
-    factor_ = std::make_shared<const CholeskyFactor>(equations_, Precision::Single);
+  if (effort_.makes_factor) {
+    constexpr double kSolvesPerFrame = 8;
+    factor_ = std::make_shared<const CholeskyFactor>(
+        equations_, Precision::Single,
+        cheaper_ordering(equations_.matrix.rows(), kSolvesPerFrame * effort_.frames));
   } else {
     multigrid_ = std::make_unique<const Multigrid>(equations_);
   }

@@ -43,15 +43,20 @@ struct BlendedShape {
 ///       coordinates
 class RotationBlend {
  public:
+  struct Effort {
+    bool makes_factor = true;  ///< else they are solved by conjugate gradients, with less memory
+    int frames = 1;            ///< that will be asked for
+  };
+
   /// @param mesh          must outlive this
   /// @param deformations  of its sources
   /// @param system        of the mesh: what is held and where the rest stands
   /// @param reference     shares of what is held: #sources by 1
-  /// @param makes_factor  else its systems are solved by conjugate gradients, with less memory
+  /// @param effort        how its systems are solved
   /// @throws BakeError "linear.out-of-memory"
   RotationBlend(const MorphableMesh& mesh, std::shared_ptr<const SourceDeformations> deformations,
                 const DisplacementSystem& system, const Eigen::VectorXd& reference,
-                bool makes_factor = true);
+                const Effort& effort);
   ~RotationBlend();
 
   /// The rotations of transition states: least squares of log(R_a exp(sum_s T_s l_s) R_b^T).
@@ -103,7 +108,7 @@ class RotationBlend {
   Positions reference_differences_;  ///< likewise
   std::vector<int> unknown_;         ///< #V: -1 where held
   SymmetricSystem equations_;        ///< K_L of what is not held
-  bool makes_factor_;
+  Effort effort_;
   std::shared_ptr<const CholeskyFactor> factor_;
   std::unique_ptr<const Multigrid> multigrid_;  ///< instead
 };

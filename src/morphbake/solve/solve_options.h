@@ -26,6 +26,8 @@ struct SolveOptions {
   /// Solves every frame, as the paper does, instead of the few shapes that the timeline separates
   /// into.
   bool every_frame = false;
+  /// How many there are to solve: no option of a user's.
+  int frames = 1;
 };
 
 }  // namespace morphbake

@@ -94,7 +94,8 @@ SurfaceSolver::SurfaceSolver(const DisplacementSystem& system, const SolveOption
       method_ = std::move(single);
     } else {
       method_ = std::make_shared<const CholeskyFactor>(
-          system.equations(), is_single ? Precision::Single : Precision::Double);
+          system.equations(), is_single ? Precision::Single : Precision::Double,
+          cheaper_ordering(system.equations().matrix.rows(), options.frames));
     }
   } else if (choice_.solver == Solver::ConjugateGradients) {
     if (system.holds()) {

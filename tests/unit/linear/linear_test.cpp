@@ -50,6 +50,14 @@ TEST(CholeskyFactor, SolvesEverySingularBlock) {
   EXPECT_GT(factor.bytes(), two.system.matrix.rows() * sizeof(double));
 }
 
+TEST(CholeskyFactor, SolvesTheSameInAnyOrder) {
+  const TwoBlocks two;
+  const CholeskyFactor dissected(two.system, Precision::Double, Ordering::NestedDissection);
+  EXPECT_LT(two.error(dissected.solve(two.b)), 1e-12);
+  EXPECT_EQ(cheaper_ordering(100000, 200), Ordering::MinimumDegree);
+  EXPECT_EQ(cheaper_ordering(100000, 400), Ordering::NestedDissection);
+}
+
 TEST(CholeskyFactor, SolvesAsManyColumnsAsItIsGivenEachByItself) {
   const Mesh mesh = test::joined(test::torus(37, 23), test::sphere(9, 11));
   const OneRings rings = one_rings({static_cast<int>(mesh.positions.rows()), mesh.triangles});
