@@ -12,6 +12,7 @@
 #include "morphbake/differential/laplacian.h"
 #include "morphbake/differential/rotation_vector.h"
 #include "morphbake/linear/cholesky_factor.h"
+#include "morphbake/linear/unknowns.h"
 #include "morphbake/mesh/measures.h"
 #include "morphbake/solve/surface_solver.h"
 
@@ -95,21 +96,14 @@ Eigen::MatrixXd harmonic_turns(const OneRings& rings, const std::vector<bool>& h
       turns.row(vertex) << handle.turn.transpose(), std::log(handle.growth);
     }
   }
-  std::vector<int> unknowns;
-  for (std::size_t v = 0; v < held.size(); ++v) {
-    if (!held[v]) unknowns.push_back(static_cast<int>(v));
-  }
-  if (unknowns.empty()) return turns;
-  Eigen::SparseMatrix<double> select(count, static_cast<Eigen::Index>(unknowns.size()));
-  select.reserve(Eigen::VectorXi::Ones(select.cols()));
-  for (std::size_t i = 0; i < unknowns.size(); ++i) {
-    select.insert(unknowns[i], static_cast<Eigen::Index>(i)) = 1;
-  }
+  const Unknowns unknowns(held);
+  if (unknowns.rows.empty()) return turns;
+  const Eigen::SparseMatrix<double> select = unknowns.selection();
   const Eigen::SparseMatrix<double> K = symmetric_laplacian(rings);
   const Eigen::SparseMatrix<double> rows = select.transpose() * K;
-  SymmetricSystem system{rows * select, std::vector<int>(unknowns.size(), -1), 0};
+  SymmetricSystem system{rows * select, std::vector<int>(unknowns.rows.size(), -1), 0};
   const Eigen::MatrixXd b = -(rows * turns);
-  turns(unknowns, Eigen::all) = CholeskyFactor(system).solve(b);
+  turns(unknowns.rows, Eigen::all) = CholeskyFactor(system).solve(b);
   return turns;
 }
 

@@ -51,43 +51,19 @@ AffineBlend::Weights AffineBlend::weights_of(const OneRings& rings, const Positi
 AffineBlend::AffineBlend(const MorphableMesh& mesh, const Constraints& constraints, Positions rest)
     : rings_(one_rings(mesh.connectivity)),
       components_(connected_components(rings_)),
-      held_(constraints.held),
+      unknowns_(constraints.held),
+      is_free_(unknown_parts(unknowns_, components_.label, components_.count)),
+      select_(unknowns_.selection()),
       gauge_(constraints.gauge),
       rest_(std::move(rest)) {
   for (const Positions& source : mesh.geometries) weights_.push_back(weights_of(rings_, source));
-  number_unknowns();
   const Eigen::SparseMatrix<double> K_L = symmetric_laplacian(rings_);
   const Eigen::VectorXd degrees = K_L.diagonal().cwiseMax(1);
   laplacian_ = degrees.cwiseInverse().asDiagonal() * K_L;
   const Eigen::SparseMatrix<double> L_F = laplacian_ * select_;
   const Eigen::SparseMatrix<double> L_F_transposed = L_F.transpose();
   regularisation_.matrix = kLaplacian * (L_F_transposed * L_F);
-}
-
-void AffineBlend::number_unknowns() {
-  const auto count = static_cast<Eigen::Index>(held_.size());
-  holds_.assign(static_cast<std::size_t>(components_.count), false);
-  std::vector<Eigen::Triplet<double>> entries;
-  for (Eigen::Index v = 0; v < count; ++v) {
-    const auto vertex = static_cast<std::size_t>(v);
-    if (held_[vertex]) {
-      holds_[static_cast<std::size_t>(components_.label[vertex])] = true;
-    } else {
-      entries.emplace_back(v, static_cast<Eigen::Index>(free_.size()), 1.0);
-      free_.push_back(static_cast<int>(v));
-    }
-  }
-  select_.resize(count, static_cast<Eigen::Index>(free_.size()));
-  select_.setFromTriplets(entries.begin(), entries.end());
-  std::vector<int> block(holds_.size(), -1);
-  for (const int vertex : free_) {
-    const auto component =
-        static_cast<std::size_t>(components_.label[static_cast<std::size_t>(vertex)]);
-    if (!holds_[component] && block[component] < 0) {
-      block[component] = regularisation_.singular_block_count++;
-    }
-    regularisation_.singular_block.push_back(block[component]);
-  }
+  number_singular_blocks(unknowns_, components_.label, is_free_, regularisation_);
 }
 
 /// I - W with the sources' weights blended: #V by #V.
@@ -117,9 +93,9 @@ void AffineBlend::move_to_gauge(const Positions& mixed, Positions& shape) const 
     shift.row(components_.label[static_cast<std::size_t>(v)]) +=
         gauge_(v) * (mixed.row(v) - shape.row(v));
   }
-  for (const int vertex : free_) {
+  for (const int vertex : unknowns_.rows) {
     const int component = components_.label[static_cast<std::size_t>(vertex)];
-    if (!holds_[static_cast<std::size_t>(component)]) shape.row(vertex) += shift.row(component);
+    if (is_free_[static_cast<std::size_t>(component)]) shape.row(vertex) += shift.row(component);
   }
 }
 
@@ -131,9 +107,8 @@ Positions AffineBlend::shape(const TransitionState& T, const Positions& mixed) c
     differences += shares * weights_[s].differences;
   }
   Positions shape = mixed;
-  for (std::size_t v = 0; v < held_.size(); ++v) {
-    const auto row = static_cast<Eigen::Index>(v);
-    if (held_[v]) shape.row(row) = rest_.row(row);
+  for (Eigen::Index row = 0; row < shape.rows(); ++row) {
+    if (unknowns_.of_row[static_cast<std::size_t>(row)] < 0) shape.row(row) = rest_.row(row);
   }
   // Moves from there, not positions: squares lose digits in proportion to what they are applied to.
   const Eigen::SparseMatrix<double> A = affine_matrix(T);
@@ -146,7 +121,7 @@ Positions AffineBlend::shape(const TransitionState& T, const Positions& mixed) c
   const Eigen::MatrixXd uniform_squares = laplacian_.transpose() * uniform;
   const Eigen::MatrixXd b =
       A_F_transposed * affine + kLaplacian * (select_.transpose() * uniform_squares);
-  if (!free_.empty()) shape(free_, Eigen::all) += CholeskyFactor(system).solve(b);
+  if (!unknowns_.rows.empty()) shape(unknowns_.rows, Eigen::all) += CholeskyFactor(system).solve(b);
   move_to_gauge(mixed, shape);
   return shape;
 }

@@ -5,6 +5,7 @@
 
 #include "morphbake/connectivity/morphable_mesh.h"
 #include "morphbake/linear/symmetric_system.h"
+#include "morphbake/linear/unknowns.h"
 #include "morphbake/mesh/adjacency.h"
 #include "morphbake/solve/constraints.h"
 #include "morphbake/transition/timeline.h"
@@ -44,20 +45,18 @@ class AffineBlend {
   };
 
   static Weights weights_of(const OneRings& rings, const Positions& positions);
-  void number_unknowns();
   Eigen::SparseMatrix<double> affine_matrix(const TransitionState& T) const;
   void move_to_gauge(const Positions& mixed, Positions& shape) const;
 
   OneRings rings_;
   Components components_;
-  std::vector<bool> held_;
+  Unknowns unknowns_;
+  std::vector<bool> is_free_;           ///< one a component: whether it holds nothing
+  Eigen::SparseMatrix<double> select_;  ///< #V by #unknowns: the columns of free vertices
   Eigen::VectorXd gauge_;
   Positions rest_;
   std::vector<Weights> weights_;           ///< one a source
-  std::vector<int> free_;                  ///< vertices that are not held
-  std::vector<bool> holds_;                ///< one a component
   Eigen::SparseMatrix<double> laplacian_;  ///< L: #V by #V
-  Eigen::SparseMatrix<double> select_;     ///< #V by #free: the columns of free vertices
   SymmetricSystem regularisation_;         ///< 0.03 L^T L of what is free
 };
 

@@ -99,26 +99,13 @@ DisplacementSystem::DisplacementSystem(const MorphableMesh& mesh, Constraints co
       components_(connected_components(rings_)),
       constraints_(std::move(constraints)),
       rule_(rule),
+      unknowns_(constraints_.held),
+      is_free_(unknown_parts(unknowns_, components_.label, components_.count)),
       diagonal_(bounding_diagonal(mesh.geometries.front())) {
   for (const Positions& geometry : mesh.geometries) {
     centres_.push_back(component_centres(components_, geometry));
   }
-  number_unknowns();
   assemble();
-}
-
-void DisplacementSystem::number_unknowns() {
-  component_holds_.assign(static_cast<std::size_t>(components_.count), false);
-  for (std::size_t v = 0; v < constraints_.held.size(); ++v) {
-    const bool is_held = constraints_.held[v];
-    unknown_of_vertex_.push_back(is_held ? -1 : static_cast<int>(vertex_of_unknown_.size()));
-    if (is_held) {
-      ++held_count_;
-      component_holds_[static_cast<std::size_t>(components_.label[v])] = true;
-    } else {
-      vertex_of_unknown_.push_back(static_cast<int>(v));
-    }
-  }
 }
 
 /// K_L for components that hold nothing, L_F^T L_F for the others, where L_F are the columns of L
@@ -126,11 +113,10 @@ void DisplacementSystem::number_unknowns() {
 void DisplacementSystem::assemble() {
   std::vector<Eigen::Triplet<double>> harmonic, columns;
   const auto holds = [&](Eigen::Index v) {
-    return component_holds_[static_cast<std::size_t>(
-        components_.label[static_cast<std::size_t>(v)])];
+    return !is_free_[static_cast<std::size_t>(components_.label[static_cast<std::size_t>(v)])];
   };
   const auto unknown = [&](Eigen::Index v) {
-    return unknown_of_vertex_[static_cast<std::size_t>(v)];
+    return unknowns_.of_row[static_cast<std::size_t>(v)];
   };
   const int vertex_count = mesh_.connectivity.vertex_count;
   for (int i = 0; i < vertex_count; ++i) {
@@ -146,7 +132,7 @@ void DisplacementSystem::assemble() {
           rings_, i, [&](Eigen::Index j) { harmonic.emplace_back(unknown(i), unknown(j), -1.0); });
     }
   }
-  const auto unknown_count = static_cast<Eigen::Index>(vertex_of_unknown_.size());
+  const auto unknown_count = static_cast<Eigen::Index>(unknowns_.rows.size());
   equations_.matrix.resize(unknown_count, unknown_count);
   equations_.matrix.setFromTriplets(harmonic.begin(), harmonic.end());
   if (!columns.empty()) {
@@ -156,15 +142,7 @@ void DisplacementSystem::assemble() {
     const Eigen::SparseMatrix<double> squared = L_F_transposed * L_F;
     equations_.matrix = equations_.matrix + squared;
   }
-  std::vector<int> block_of_component(static_cast<std::size_t>(components_.count), -1);
-  for (const int vertex : vertex_of_unknown_) {
-    const auto component =
-        static_cast<std::size_t>(components_.label[static_cast<std::size_t>(vertex)]);
-    if (!component_holds_[component] && block_of_component[component] < 0) {
-      block_of_component[component] = equations_.singular_block_count++;
-    }
-    equations_.singular_block.push_back(block_of_component[component]);
-  }
+  number_singular_blocks(unknowns_, components_.label, is_free_, equations_);
 }
 
 /// Makes K_L u = b solvable: b must sum to 0 over each component that holds nothing.
@@ -195,7 +173,7 @@ void DisplacementSystem::balance_axis(const Eigen::VectorXd& variation, Eigen::I
   for (Eigen::Index v = 0; v < variation.size(); ++v) {
     const int component = components_.label[static_cast<std::size_t>(v)];
     const auto c = static_cast<std::size_t>(component);
-    if (component_holds_[c] || !(variations(component) > 0)) continue;
+    if (!is_free_[c] || !(variations(component) > 0)) continue;
     if (constraints_.anchor[c] < 0) {
       b(v) -= variation(v) / variations(component) * sums(component);
     } else if (constraints_.anchor[c] == v) {
@@ -270,7 +248,7 @@ Goal DisplacementSystem::goal_of_moves(const Positions& moves) const {
     if (moves.row(v) != first.row(components_.label[vertex])) goal.uniform[component] = false;
   }
   require_finite(goal.blend, "moved", "move vertices to numbers");
-  for (const int v : vertex_of_unknown_) {
+  for (const int v : unknowns_.rows) {
     const int component = components_.label[static_cast<std::size_t>(v)];
     if (goal.uniform[static_cast<std::size_t>(component)]) goal.blend.row(v) = first.row(component);
   }
@@ -281,17 +259,17 @@ Goal DisplacementSystem::goal_of_moves(const Positions& moves) const {
 Eigen::MatrixXd DisplacementSystem::rest() const {
   const Positions& V = mesh_.geometries.front();
   const Eigen::RowVector3d centre = (V.colwise().minCoeff() + V.colwise().maxCoeff()) / 2;
-  return (V.rowwise() - centre)(vertex_of_unknown_, Eigen::all);
+  return (V.rowwise() - centre)(unknowns_.rows, Eigen::all);
 }
 
 Eigen::MatrixXd DisplacementSystem::start(const Goal& goal) const {
-  return goal.start(vertex_of_unknown_, Eigen::all);
+  return goal.start(unknowns_.rows, Eigen::all);
 }
 
 Eigen::MatrixXd DisplacementSystem::residual(const Goal& goal, const Eigen::MatrixXd& x) const {
   Positions u = goal.blend;  // held vertices stay there
-  for (std::size_t k = 0; k < vertex_of_unknown_.size(); ++k) {
-    u.row(vertex_of_unknown_[k]) = x.row(static_cast<Eigen::Index>(k));
+  for (std::size_t k = 0; k < unknowns_.rows.size(); ++k) {
+    u.row(unknowns_.rows[k]) = x.row(static_cast<Eigen::Index>(k));
   }
   // e = b - K_L u. Extended precision where L^T is still to be applied to it.
   Eigen::Matrix<long double, Eigen::Dynamic, 3, Eigen::RowMajor> misfit;
@@ -299,7 +277,7 @@ Eigen::MatrixXd DisplacementSystem::residual(const Goal& goal, const Eigen::Matr
   Eigen::MatrixXd residual(x.rows(), 3);
   for (Eigen::Index i = 0; i < u.rows(); ++i) {
     const auto vertex = static_cast<std::size_t>(i);
-    if (component_holds_[static_cast<std::size_t>(components_.label[vertex])]) {
+    if (!is_free_[static_cast<std::size_t>(components_.label[vertex])]) {
       ExtendedRow e = goal.differences.row(i).cast<long double>();
       const ExtendedRow own = u.row(i).cast<long double>();
       for_each_neighbour(rings_, i,
@@ -308,14 +286,14 @@ Eigen::MatrixXd DisplacementSystem::residual(const Goal& goal, const Eigen::Matr
     } else {
       Eigen::RowVector3d e = goal.differences.row(i);
       for_each_neighbour(rings_, i, [&](Eigen::Index j) { e -= u.row(i) - u.row(j); });
-      residual.row(unknown_of_vertex_[vertex]) = e;
+      residual.row(unknowns_.of_row[vertex]) = e;
     }
   }
   if (!holds()) return residual;
-  for (std::size_t k = 0; k < vertex_of_unknown_.size(); ++k) {
-    const Eigen::Index i = vertex_of_unknown_[k];
+  for (std::size_t k = 0; k < unknowns_.rows.size(); ++k) {
+    const Eigen::Index i = unknowns_.rows[k];
     const auto component = static_cast<std::size_t>(components_.label[static_cast<std::size_t>(i)]);
-    if (!component_holds_[component]) continue;
+    if (is_free_[component]) continue;
     ExtendedRow sum = misfit.row(i);  // column i of L: 1 at i, -1 / deg_j at its neighbours j
     for_each_neighbour(rings_, i, [&](Eigen::Index j) {
       sum -= misfit.row(j) / static_cast<long double>(rings_.degree(static_cast<int>(j)));
@@ -330,18 +308,18 @@ Positions DisplacementSystem::displacement(const Goal& goal, const Eigen::Matrix
   Positions offsets = Positions::Zero(components_.count, 3);
   const auto is_solved = [&](Eigen::Index v) {
     const auto vertex = static_cast<std::size_t>(v);
-    return unknown_of_vertex_[vertex] >= 0 &&
+    return unknowns_.of_row[vertex] >= 0 &&
            !goal.uniform[static_cast<std::size_t>(components_.label[vertex])];
   };
   for (Eigen::Index v = 0; v < u.rows(); ++v) {
     if (!is_solved(v)) continue;
-    u.row(v) = x.row(unknown_of_vertex_[static_cast<std::size_t>(v)]);
+    u.row(v) = x.row(unknowns_.of_row[static_cast<std::size_t>(v)]);
     const int component = components_.label[static_cast<std::size_t>(v)];
     offsets.row(component) += constraints_.gauge(v) * (goal.blend.row(v) - u.row(v));
   }
   for (Eigen::Index v = 0; v < u.rows(); ++v) {
     const int component = components_.label[static_cast<std::size_t>(v)];
-    if (is_solved(v) && !component_holds_[static_cast<std::size_t>(component)]) {
+    if (is_solved(v) && is_free_[static_cast<std::size_t>(component)]) {
       u.row(v) += offsets.row(component);
     }
   }

@@ -4,6 +4,7 @@
 
 #include "morphbake/connectivity/morphable_mesh.h"
 #include "morphbake/linear/symmetric_system.h"
+#include "morphbake/linear/unknowns.h"
 #include "morphbake/mesh/adjacency.h"
 #include "morphbake/solve/constraints.h"
 #include "morphbake/solve/solve_options.h"
@@ -41,9 +42,11 @@ class DisplacementSystem {
 
   const Constraints& constraints() const { return constraints_; }
 
-  bool holds() const { return held_count_ > 0; }
+  bool holds() const { return held_count() > 0; }
 
-  int held_count() const { return held_count_; }
+  int held_count() const {
+    return static_cast<int>(unknowns_.of_row.size() - unknowns_.rows.size());
+  }
 
   double diagonal() const { return diagonal_; }
 
@@ -89,7 +92,6 @@ class DisplacementSystem {
   Positions displacement(const Goal& goal, const Eigen::MatrixXd& x) const;
 
  private:
-  void number_unknowns();
   void assemble();
   void balance(const Eigen::MatrixXd& change, Goal& goal) const;
   void balance_axis(const Eigen::VectorXd& variation, Eigen::Index axis, Goal& goal) const;
@@ -99,10 +101,8 @@ class DisplacementSystem {
   Components components_;
   Constraints constraints_;
   RightHandSide rule_;
-  std::vector<bool> component_holds_;
-  std::vector<int> unknown_of_vertex_;  ///< -1 where held
-  std::vector<int> vertex_of_unknown_;
-  int held_count_ = 0;
+  Unknowns unknowns_;          ///< what is not held
+  std::vector<bool> is_free_;  ///< one a component: whether it holds nothing
   double diagonal_ = 0;
   std::vector<Positions> centres_;  ///< one a source: mean of each component's vertices
   SymmetricSystem equations_;

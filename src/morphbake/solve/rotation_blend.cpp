@@ -7,6 +7,7 @@
 #include <numeric>
 #include <utility>
 
+#include "morphbake/differential/laplacian.h"
 #include "morphbake/differential/rotation_vector.h"
 #include "morphbake/linear/iterate.h"
 #include "morphbake/solve/rotation_passes.h"
@@ -189,31 +190,13 @@ void RotationBlend::plan_tree() {
 }
 
 void RotationBlend::factorise() {
-  unknown_.assign(held_.size(), -1);
-  int count = 0;
-  equations_ = {};
-  for (std::size_t v = 0; v < held_.size(); ++v) {
-    if (!held_[v]) unknown_[v] = count++;
-  }
-  std::vector<int> block(static_cast<std::size_t>(components_.count), -1);
-  std::vector<Eigen::Triplet<double>> entries;
-  for (std::size_t v = 0; v < held_.size(); ++v) {
-    if (held_[v]) continue;
-    const auto component = static_cast<std::size_t>(components_.label[v]);
-    const bool is_free = root_[component] >= 0;
-    if (is_free && block[component] < 0) block[component] = equations_.singular_block_count++;
-    equations_.singular_block.push_back(block[component]);
-    entries.emplace_back(unknown_[v], unknown_[v], turned_->rings.degree(static_cast<int>(v)));
-  }
-  for (const Edge& edge : edges_) {
-    const int a = unknown_[static_cast<std::size_t>(edge.a)];
-    const int b = unknown_[static_cast<std::size_t>(edge.b)];
-    if (a < 0 || b < 0) continue;
-    entries.emplace_back(a, b, -1.0);
-    entries.emplace_back(b, a, -1.0);
-  }
-  equations_.matrix.resize(count, count);
-  equations_.matrix.setFromTriplets(entries.begin(), entries.end());
+  unknowns_ = Unknowns(held_);
+  const Eigen::SparseMatrix<double> select = unknowns_.selection();
+  const Eigen::SparseMatrix<double> K_L = symmetric_laplacian(turned_->rings);
+  equations_.matrix = select.transpose() * Eigen::SparseMatrix<double>(K_L * select);
+  number_singular_blocks(unknowns_, components_.label,
+                         unknown_parts(unknowns_, components_.label, components_.count),
+                         equations_);
   if (effort_.makes_factor) {
     constexpr double kSolvesPerFrame = 8;
     factor_ = std::make_shared<const CholeskyFactor>(
@@ -312,12 +295,12 @@ std::vector<LaneFrames> RotationBlend::synchronised(std::span<const TransitionSt
   for (int step = 0; step < kMostSteps && std::any_of(moves.begin(), moves.end(), is_moving);
        ++step) {
     for (std::size_t g = 0; g < groups.size(); ++g) {
-      put_misfits(*turned_, groups[g], unknown_, static_cast<int>(g), columns);
+      put_misfits(*turned_, groups[g], unknowns_.of_row, static_cast<int>(g), columns);
     }
     solve_in_place(columns);
     remove_block_means(equations_, columns);
     for (std::size_t g = 0; g < groups.size(); ++g) {
-      turn_by(columns, static_cast<int>(g), unknown_, kSettled, moves[g], groups[g]);
+      turn_by(columns, static_cast<int>(g), unknowns_.of_row, kSettled, moves[g], groups[g]);
     }
   }
   for (std::size_t g = 0; g < groups.size(); ++g) {

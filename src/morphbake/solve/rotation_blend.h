@@ -9,6 +9,7 @@
 #include "morphbake/differential/deformation.h"
 #include "morphbake/linear/cholesky_factor.h"
 #include "morphbake/linear/multigrid.h"
+#include "morphbake/linear/unknowns.h"
 #include "morphbake/solve/displacement_system.h"
 #include "morphbake/transition/timeline.h"
 
@@ -106,7 +107,7 @@ class RotationBlend {
   std::vector<int> root_;            ///< one a component; -1 where something is held
   RotationField reference_;          ///< #V where something is held: the rotations of what is
   Positions reference_differences_;  ///< likewise
-  std::vector<int> unknown_;         ///< #V: -1 where held
+  Unknowns unknowns_;                ///< what is not held
   SymmetricSystem equations_;        ///< K_L of what is not held
   Effort effort_;
   std::shared_ptr<const CholeskyFactor> factor_;

@@ -2,6 +2,7 @@
 
 #include "morphbake/differential/laplacian.h"
 #include "morphbake/linear/cholesky_factor.h"
+#include "morphbake/linear/unknowns.h"
 #include "morphbake/mesh/adjacency.h"
 
 namespace morphbake {
@@ -16,28 +17,20 @@ Eigen::VectorXd spread_values(const Connectivity& connectivity,
     if (!is_fixed[vertex]) values(each.vertex) = each.value;
     is_fixed[vertex] = true;
   }
-  std::vector<int> unknowns;
-  for (std::size_t v = 0; v < count; ++v) {
-    if (!is_fixed[v]) unknowns.push_back(static_cast<int>(v));
-  }
-  if (unknowns.empty()) return values;
+  const Unknowns unknowns(is_fixed);
+  if (unknowns.rows.empty()) return values;
 
   // Rows of K over the roots of their degrees; of its columns those of the unknowns.
   const OneRings rings = one_rings(connectivity);
   const Eigen::SparseMatrix<double> K = symmetric_laplacian(rings);
   const Eigen::VectorXd scale = K.diagonal().cwiseMax(1).cwiseSqrt().cwiseInverse();
   const Eigen::SparseMatrix<double> rows = scale.asDiagonal() * K;
-  Eigen::SparseMatrix<double> selection(K.cols(), static_cast<Eigen::Index>(unknowns.size()));
-  selection.reserve(Eigen::VectorXi::Ones(selection.cols()));
-  for (std::size_t i = 0; i < unknowns.size(); ++i) {
-    selection.insert(unknowns[i], static_cast<Eigen::Index>(i)) = 1;
-  }
-  const Eigen::SparseMatrix<double> columns = rows * selection;
+  const Eigen::SparseMatrix<double> columns = rows * unknowns.selection();
   SymmetricSystem system;
   system.matrix = columns.transpose() * columns;
-  system.singular_block.assign(unknowns.size(), -1);
+  system.singular_block.assign(unknowns.rows.size(), -1);
   const Eigen::MatrixXd b = -(columns.transpose() * (rows * values));
-  values(unknowns) = CholeskyFactor(system).solve(b).col(0);
+  values(unknowns.rows) = CholeskyFactor(system).solve(b).col(0);
   return values;
 }
 

@@ -7,6 +7,7 @@
 #include "morphbake/linear/cholesky_factor.h"
 #include "morphbake/linear/iterate.h"
 #include "morphbake/linear/multigrid.h"
+#include "morphbake/linear/unknowns.h"
 #include "shapes/shapes.h"
 
 namespace morphbake {
@@ -41,6 +42,20 @@ TEST(RemoveBlockMeans, LeavesDefiniteRowsAlone) {
   columns << 1, 5, 3;
   remove_block_means(system, columns);
   EXPECT_EQ(columns, (Eigen::MatrixXd(3, 1) << -1, 5, 1).finished());
+}
+
+TEST(Unknowns, LeaveOutWhatIsKnown) {
+  const Unknowns unknowns({false, true, false, false});
+  EXPECT_EQ(unknowns.of_row, (std::vector<int>{0, -1, 1, 2}));
+  EXPECT_EQ(unknowns.rows, (std::vector<int>{0, 2, 3}));
+  EXPECT_EQ(Eigen::VectorXd(unknowns.selection() * Eigen::Vector3d(5, 6, 7)),
+            Eigen::VectorXd(Eigen::Vector4d(5, 0, 6, 7)));
+  // Rows 0 and 1 are one part, of which one is known.
+  const std::vector<int> parts = {0, 0, 1, 2};
+  SymmetricSystem system;
+  number_singular_blocks(unknowns, parts, unknown_parts(unknowns, parts, 3), system);
+  EXPECT_EQ(system.singular_block, (std::vector<int>{-1, 0, 1}));
+  EXPECT_EQ(system.singular_block_count, 2);
 }
 
 TEST(CholeskyFactor, SolvesEverySingularBlock) {
