@@ -76,6 +76,7 @@ int main(int argc, char** argv) {
   }
   const std::vector<std::pair<std::string, std::function<void(Figures&)>>> all = {
       {"solve", at_each_size(bench_solvers)},
+      {"stream", [](Figures& figures) { bench_stream(1100000, 600, figures); }},
       {"rotations", at_each_size(bench_rotations)},
       {"regions", at_each_size(bench_regions)},
       {"eigenvectors", [](Figures& figures) { bench_eigenvectors(50000, figures); }},

@@ -265,6 +265,32 @@ void bench_frames(const std::string& group, const Scene& scene, const Displaceme
 
 }  // namespace
 
+void bench_stream(int vertices, int frames, Figures& figures) {
+  Scene scene(vertices);
+  scene.times.clear();
+  for (int f = 0; f < frames; ++f) scene.times.push_back((f + 0.5) / frames);
+  forget_peak_memory();
+  const DisplacementSystem system = scene.system(HoldRule::Nothing);
+  SolveOptions options = options_of(Solver::Warm, 1e-8);
+  options.frames = frames;
+  const double setup = seconds_of([&] { SurfaceSolver unused(system, options, nobody); });
+  const SurfaceSolver solver(system, options, nobody);
+  double kept = 0;
+  const double seconds = seconds_of([&] {
+    solve_frames(
+        solver, scene.times,
+        [&](std::span<const double> times) { return scene.goals_at(system, times); }, nobody,
+        [&](int, const Positions& displacement) { kept += displacement(0, 0); });
+  });
+  const std::string group =
+      fmt::format("warm, {} vertices, {} frames, all threads", shown_count(vertices), frames);
+  figures.push_back({group, "set-up", setup, "s", ""});
+  figures.push_back({group, "whole frames", seconds / frames * 1e3, "ms/frame",
+                     kept == kept ? "none is kept" : "not a number"});
+  figures.push_back({group, "peak memory a vertex", peak_memory() / vertices, "B",
+                     "of the whole process, with the mesh"});
+}
+
 void bench_solvers(int vertices, Figures& figures) {
   const tbb::global_control one_thread(tbb::global_control::max_allowed_parallelism, 1);
   const Scene scene(vertices);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <fstream>
 
 namespace morphbake::bench {
 namespace {
@@ -42,5 +43,16 @@ Pair time_pair(int repeats, const std::function<void()>& first,
 }
 
 std::string shown_count(int count) { return fmt::format("{}k", count / 1000); }
+
+double peak_memory() {
+  std::ifstream status("/proc/self/status");
+  for (std::string word; status >> word;) {
+    double kilobytes = 0;
+    if (word == "VmHWM:" && status >> kilobytes) return 1024 * kilobytes;
+  }
+  return 0;
+}
+
+void forget_peak_memory() { std::ofstream("/proc/self/clear_refs") << 5; }
 
 }  // namespace morphbake::bench

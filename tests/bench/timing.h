@@ -37,7 +37,12 @@ Pair time_pair(int repeats, const std::function<void()>& first,
 /// "10k", "500k"
 std::string shown_count(int count);
 
+/// Bytes that the process has had in memory at most, since it was started or told to forget.
+double peak_memory();
+void forget_peak_memory();
+
 void bench_solvers(int vertices, Figures& figures);
+void bench_stream(int vertices, int frames, Figures& figures);
 void bench_rotations(int vertices, Figures& figures);
 void bench_regions(int vertices, Figures& figures);
 void bench_eigenvectors(int vertices, Figures& figures);
