@@ -133,8 +133,9 @@ TEST(Rotation, EveryVertexIsAtRestBetweenItsNeighbours) {
   // The normal equations of the least squares, with logarithms that are computed here.
   const MorphableMesh mesh = bars(120, 270);
   const Shapes shapes(mesh);
+  const Observer nobody;
   const RotationBlend blend(mesh, std::make_shared<SourceDeformations>(shapes.deformations()),
-                            *shapes.states().displacements, Eigen::Vector2d(1, 0), {});
+                            *shapes.states().displacements, Eigen::Vector2d(1, 0), {}, nobody);
   TransitionState T(2, mesh.connectivity.vertex_count);
   for (Eigen::Index v = 0; v < T.cols(); ++v) {
     const double share = std::clamp(mesh.geometries[0](v, 1) + 0.2, 0.0, 1.0);
@@ -160,6 +161,21 @@ TEST(Rotation, EveryVertexIsAtRestBetweenItsNeighbours) {
     sums.row(edge.b) -= (rest.angle() * rest.axis()).transpose();
   }
   EXPECT_LT(sums.rowwise().norm().maxCoeff(), 1e-5);
+}
+
+TEST(Rotation, CanBeInterrupted) {
+  const MorphableMesh mesh = bars(120, 270);
+  bool stops = false;
+  Observer observer;
+  observer.is_cancelled = [&stops] { return stops; };
+  const Shapes shapes(mesh);
+  const RotationBlend blend(mesh, std::make_shared<SourceDeformations>(shapes.deformations()),
+                            *shapes.states().displacements, Eigen::Vector2d(1, 0), {}, observer);
+  const TransitionState half =
+      uniform_transition(Eigen::Vector2d(0.5, 0.5), mesh.connectivity.vertex_count);
+  EXPECT_EQ(blend.shapes({&half, 1}).size(), 1U);
+  stops = true;
+  EXPECT_THROW(blend.shapes({&half, 1}), Cancelled);
 }
 
 TEST(Rotation, ATurnedSourceChangesTheRigidPathAlone) {

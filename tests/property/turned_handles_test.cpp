@@ -140,5 +140,14 @@ TEST(TurnedHandlesOf, AWholePieceTurnIt) {
             1e-8);
 }
 
+TEST(FreeForm, RelaxingCanBeInterrupted) {
+  const TurnedBar bar(0, 90 * kDegree);
+  int asked = 0;
+  Observer observer;
+  observer.is_cancelled = [&asked] { return ++asked == 4; };  // some passes on
+  EXPECT_THROW(free_form(bar.mesh, bar.fixed, {bar.handle}, Surroundings::Turned, observer),
+               Cancelled);
+}
+
 }  // namespace
 }  // namespace morphbake

@@ -84,7 +84,7 @@ SourceDeformations source_deformations(const MorphableMesh& mesh) {
 RotationBlend::RotationBlend(const MorphableMesh& mesh,
                              std::shared_ptr<const SourceDeformations> deformations,
                              const DisplacementSystem& system, const Eigen::VectorXd& reference,
-                             const Effort& effort)
+                             const Effort& effort, const Observer& observer)
     : mesh_(mesh),
       source_deformations_(std::move(deformations)),
       edges_(source_deformations_->edges),
@@ -94,7 +94,8 @@ RotationBlend::RotationBlend(const MorphableMesh& mesh,
       held_(mesh.connectivity.vertex_count, false),
       holds_(system.holds()),
       gauge_(system.constraints().gauge),
-      effort_(effort) {
+      effort_(effort),
+      observer_(observer) {
   choose_roots();
   plan_tree();
   factorise();
@@ -294,6 +295,7 @@ std::vector<LaneFrames> RotationBlend::synchronised(std::span<const TransitionSt
   };
   for (int step = 0; step < kMostSteps && std::any_of(moves.begin(), moves.end(), is_moving);
        ++step) {
+    stop_if_cancelled(observer_);
     for (std::size_t g = 0; g < groups.size(); ++g) {
       put_misfits(*turned_, groups[g], unknowns_.of_row, static_cast<int>(g), columns);
     }
@@ -319,6 +321,7 @@ void RotationBlend::fit(std::vector<LaneFrames>& groups) const {
   ColumnRows columns(mesh_.connectivity.vertex_count,
                      kGroupColumns * static_cast<Eigen::Index>(groups.size()));
   for (int pass = 0; pass <= kFits; ++pass) {
+    stop_if_cancelled(observer_);
     for (std::size_t g = 0; g < groups.size(); ++g) {
       put_differences(*turned_, groups[g], Left::Residual, static_cast<int>(g), columns);
     }

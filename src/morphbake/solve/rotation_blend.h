@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "morphbake/connectivity/morphable_mesh.h"
+#include "morphbake/diagnostics/observer.h"
 #include "morphbake/differential/deformation.h"
 #include "morphbake/linear/cholesky_factor.h"
 #include "morphbake/linear/multigrid.h"
@@ -54,10 +55,11 @@ class RotationBlend {
   /// @param system        of the mesh: what is held and where the rest stands
   /// @param reference     shares of what is held: #sources by 1
   /// @param effort        how its systems are solved
-  /// @throws BakeError "linear.out-of-memory"
+  /// @param observer      is asked whether to stop; must outlive this
+  /// @throws BakeError "linear.out-of-memory"; Cancelled, here and wherever shapes are asked for
   RotationBlend(const MorphableMesh& mesh, std::shared_ptr<const SourceDeformations> deformations,
                 const DisplacementSystem& system, const Eigen::VectorXd& reference,
-                const Effort& effort);
+                const Effort& effort, const Observer& observer);
   ~RotationBlend();
 
   /// The rotations of transition states: least squares of log(R_a exp(sum_s T_s l_s) R_b^T).
@@ -110,6 +112,7 @@ class RotationBlend {
   Unknowns unknowns_;                ///< what is not held
   SymmetricSystem equations_;        ///< K_L of what is not held
   Effort effort_;
+  const Observer& observer_;
   std::shared_ptr<const CholeskyFactor> factor_;
   std::unique_ptr<const Multigrid> multigrid_;  ///< instead
 };

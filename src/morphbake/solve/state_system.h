@@ -37,6 +37,7 @@ StateSystem laplacian_states(const MorphableMesh& mesh, const Shares& reference,
 /// Differences are turned along. A reference that is a mix is solved for.
 ///
 /// @param deformations  of the mesh's sources
+/// @param observer      must outlive the result
 /// @throws BakeError "linear.out-of-memory", "solve.no-convergence"; Cancelled
 StateSystem rotation_states(const MorphableMesh& mesh,
                             const std::shared_ptr<const SourceDeformations>& deformations,
