@@ -24,11 +24,14 @@ struct Arguments {
   std::optional<double> memory_limit;
 };
 
+constexpr double kMostGigabytes = 1e6;  // as the schema of the options says
+
 /// Why a text is no size, or "".
 std::string not_a_size(const std::string& text) {
   double gigabytes = 0;
-  const bool is_size = CLI::detail::lexical_cast(text, gigabytes) && gigabytes >= 0;
-  return is_size ? "" : "'" + text + "' is no number of GB, 0 or more";
+  const bool is_size =
+      CLI::detail::lexical_cast(text, gigabytes) && gigabytes >= 0 && gigabytes <= kMostGigabytes;
+  return is_size ? "" : fmt::format("'{}' is no number of GB from 0 to {}", text, kMostGigabytes);
 }
 
 std::string shown_bytes(std::size_t bytes) {
@@ -49,14 +52,18 @@ std::string shown_names(const std::vector<std::string>& names) {
 
 /// How the systems were solved, on one line.
 std::string solve_line(const SolveReport& solve) {
+  if (solve.solves.empty()) {
+    return fmt::format("  nothing to solve; {} vertices held", solve.held);
+  }
   int iterations = 0;
   double error = 0;
   for (const SolveRecord& record : solve.solves) {
     iterations += record.convergence.iterations;
     error = std::max(error, record.convergence.error);
   }
-  return fmt::format("  {}: {} solves, {} iterations, error {:.1e}; {} vertices held", solve.solver,
-                     solve.solves.size(), iterations, error, solve.held);
+  return fmt::format("  {}: {} solves, {} iterations, error {:.1e}; {} vertices held{}",
+                     solve.solver, solve.solves.size(), iterations, error, solve.held,
+                     solve.solver == "pcg" ? " (" + solve.reason + ")" : "");
 }
 
 std::vector<std::string> summary_lines(const BakeReport& report) {
@@ -149,7 +156,7 @@ Command add_bake(CLI::App& program) {
       ->capture_default_str();
   parser
       ->add_option("--memory-limit", arguments->memory_limit,
-                   "GB: a factor that would take more is not made; slower (/solve/memory_limit)")
+                   "GB: morphs whose factor would take more are solved without; slower")
       ->check(not_a_size);
   parser->footer(
       "\nExample: morphbake bake recipe.json --output-dir out --set /basis/easing_tolerance=1e-7");

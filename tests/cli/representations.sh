@@ -24,10 +24,17 @@ stderr_has '  laplacian: half-way from "a" to "b" edges lose '
 # What only differences give decides before that.
 recipe tracks bar_straight.glb bar_bent_twisted.glb '{"outputs": [{"file": "way.glb", "targets": "tracks"}]}'
 bake tracks
-[ "$(solve_of tracks representation_reason)" = 'an output asks for tracks' ] || wrong "tracks: $(solve_of tracks representation_reason)"
+[ "$(solve_of tracks representation_reason)" = 'an output asks for tracks, though half-way from "a" to "b" edges lose 51 % of their length by their turns' ] || wrong "tracks: $(solve_of tracks representation_reason)"
 jq '.representation = "rotation"' tracks.json >asked.json
 run 2 validate asked.json
 stderr_has '#/outputs/0/targets: error: "tracks" targets are shapes that are solved once; the representation "rotation" solves every frame'
+
+# A shape that is fitted to its ring is measured, too.
+jq '.regions = {low: {ball: {on: "a", at: "bottom", inner: 0.25, outer: 0.5}}, high: {invert: "low"}} |
+  .timeline = {fps: 4, tracks: [{name: "t", region: "high", to: "b", fit: "similarity", begin: 0, end: 1}]}' bars.json >fitted.json
+bake fitted
+[ "$(solve_of fitted representation)" = rotation ] || wrong "fitted: $(solve_of fitted representation_reason)"
+stderr_has 'half-way from "a" to "b fitted" edges lose '
 
 # Where rotations turn sharply, `auto` leaves them, and who asks for them is told where.
 jq -n --arg a "$shapes/face.glb" '{version: 1, name: "way",

@@ -107,9 +107,32 @@ std::string what_needs_differences(const Recipe& recipe) {
   return "";
 }
 
+std::string percent(double share) {
+  return share < 0.1 ? fmt::format("{:.2g} %", 100 * share) : fmt::format("{:.0f} %", 100 * share);
+}
+
 std::string sharp_turns(const MostTurned& most) {
-  return fmt::format(", but {:.2g} % of them turn by more than {} rad against their neighbours",
-                     100 * most.sharp.sharp, kSharpTurn);
+  return fmt::format(
+      ", but {} of them turn by more than {} rad against their neighbours; \"rotation\" turns them "
+      "along all the same",
+      percent(most.sharp.sharp), kSharpTurn);
+}
+
+std::string shrinking(const MorphableMesh& mesh, const MostTurned& most) {
+  return fmt::format("half-way from \"{}\" to \"{}\" edges lose {} of their length by their turns",
+                     mesh.names[static_cast<std::size_t>(most.from)],
+                     mesh.names[static_cast<std::size_t>(most.to)],
+                     percent(most.shrinks.shrinking));
+}
+
+/// What has no extent cannot be turned, nor anything against it.
+void require_extent(const Recipe& recipe, const MorphableMesh& mesh, const MostTurned& most) {
+  const auto first = static_cast<std::size_t>(most.from);
+  if (bounding_diagonal(mesh.geometries[first]) > 0) return;
+  throw BakeError(Problem{
+      Severity::Error, "solve.no-extent", location_in(recipe, "/representation"),
+      fmt::format("\"{}\" is a single point: nothing is turned against it", mesh.names[first]),
+      "name a source that has a surface first, or write \"laplacian\" here"});
 }
 
 void warn_of_sharp_turns(const Recipe& recipe, const MorphableMesh& mesh, const MostTurned& most,
@@ -120,14 +143,14 @@ void warn_of_sharp_turns(const Recipe& recipe, const MorphableMesh& mesh, const 
   report(
       observer,
       Problem{Severity::Warning, "solve.sharp-turns", location_in(recipe, "/representation"),
-              fmt::format("from \"{}\" to \"{}\" {:.2g} % of the edges turn by more than "
+              fmt::format("from \"{}\" to \"{}\" {} of the edges turn by more than "
                           "{} rad against their neighbours, most of all ({:.2g} rad) the one at "
                           "({:.4g}, {:.4g}, {:.4g}) of \"{}\": which way is between is not clear "
                           "there",
                           mesh.names[static_cast<std::size_t>(most.from)],
                           mesh.names[static_cast<std::size_t>(most.sharp_to)],
-                          100 * most.sharp.sharp, kSharpTurn, most.sharp.sharpest, at.x(), at.y(),
-                          at.z(), mesh.names[static_cast<std::size_t>(most.from)]),
+                          percent(most.sharp.sharp), kSharpTurn, most.sharp.sharpest, at.x(),
+                          at.y(), at.z(), mesh.names[static_cast<std::size_t>(most.from)]),
               "more vertices or landmarks there help; \"laplacian\" blends without rotations"});
 }
 
@@ -142,22 +165,19 @@ RepresentationChoice choose_representation(const Recipe& recipe, const Morphable
       recipe.representation != Representation::Rotation) {
     return choice;
   }
-  if (recipe.representation == Representation::Auto) {
-    choice.representation = Representation::Laplacian;
-    choice.reason = what_needs_differences(recipe);
-    if (!choice.reason.empty()) return choice;
-  }
   choice.deformations = std::make_shared<SourceDeformations>(source_deformations(mesh));
   const MostTurned most = most_turned(recipe, mesh, *choice.deformations);
-  if (recipe.representation == Representation::Auto) {
+  if (recipe.representation == Representation::Rotation) {
+    require_extent(recipe, mesh, most);
+  } else {
     const bool is_turned = most.shrinks.shrinking > kShrinking;
     const bool is_clear = most.sharp.sharp <= kManySharp;
-    choice.reason = fmt::format(
-        "half-way from \"{}\" to \"{}\" edges lose {:.2g} % of their length by their turns{}",
-        mesh.names[static_cast<std::size_t>(most.from)],
-        mesh.names[static_cast<std::size_t>(most.to)], 100 * most.shrinks.shrinking,
-        is_turned && !is_clear ? sharp_turns(most) : "");
-    if (is_turned && is_clear) choice.representation = Representation::Rotation;
+    const std::string needs = what_needs_differences(recipe);
+    choice.reason = shrinking(mesh, most);
+    if (!needs.empty()) choice.reason = is_turned ? needs + ", though " + choice.reason : needs;
+    if (needs.empty() && is_turned && !is_clear) choice.reason += sharp_turns(most);
+    choice.representation = needs.empty() && is_turned && is_clear ? Representation::Rotation
+                                                                   : Representation::Laplacian;
   }
   if (choice.representation == Representation::Laplacian) {
     choice.deformations.reset();

@@ -266,6 +266,11 @@ Eigen::MatrixXd DisplacementSystem::start(const Goal& goal) const {
   return goal.start(unknowns_.rows, Eigen::all);
 }
 
+Eigen::MatrixXd DisplacementSystem::right_hand_side(const Goal& goal) const {
+  if (!holds()) return goal.differences;
+  return residual(goal, Eigen::MatrixXd::Zero(equations_.matrix.rows(), 3));
+}
+
 Eigen::MatrixXd DisplacementSystem::residual(const Goal& goal, const Eigen::MatrixXd& x) const {
   Positions u = goal.blend;  // held vertices stay there
   for (std::size_t k = 0; k < unknowns_.rows.size(); ++k) {

@@ -74,6 +74,9 @@ class DisplacementSystem {
   /// @see    Alexa 2003, eq. 8
   Goal goal_of_moves(const Positions& moves) const;
 
+  /// b of equations() X = b: unknowns by 3.
+  Eigen::MatrixXd right_hand_side(const Goal& goal) const;
+
   /// Right-hand side minus matrix times `x`; sums of held components run in extended precision.
   ///
   /// @param x  unknowns by 3

@@ -3,8 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
-#include <numeric>
+#include <iterator>
 #include <utility>
 
 #include "morphbake/differential/laplacian.h"
@@ -37,20 +36,6 @@ TurnedShapes turned_shapes(const MorphableMesh& mesh, const SourceDeformations& 
     }
   }
   return shapes;
-}
-
-/// One beside each of the rings' neighbours: edges are in the order of the neighbours behind their
-/// first vertex, and of those before their second.
-std::vector<int> edges_to_neighbours(const OneRings& rings, const std::vector<Edge>& edges) {
-  std::vector<int> edge_to(rings.neighbours.size());
-  std::vector<int> next = rings.offsets;
-  for (std::size_t e = 0; e < edges.size(); ++e) {
-    for (const int end : {edges[e].a, edges[e].b}) {
-      const int place = next[static_cast<std::size_t>(end)]++;
-      edge_to[static_cast<std::size_t>(place)] = static_cast<int>(e);
-    }
-  }
-  return edge_to;
 }
 
 RotationField field_of(const LaneFrames& frames, int lane) {
@@ -96,99 +81,36 @@ RotationBlend::RotationBlend(const MorphableMesh& mesh,
       gauge_(system.constraints().gauge),
       effort_(effort),
       observer_(observer) {
-  choose_roots();
-  plan_tree();
+  root_ = middle_vertices(turned_->rings, components_, edges_, deformations_, gauge_);
+  turned_->tree = tree_from(turned_->rings, edges_, root_);
   factorise();
   if (!holds_) {
     fit_sources();
   } else {
-    // What is held is turned as it would be if all were: by the reference, with nothing held.
-    const TransitionState all = reference.replicate(1, mesh.connectivity.vertex_count);
-    const std::vector<LaneFrames> groups = synchronised({&all, 1});
-    reference_ = field_of(groups.front(), 0);
-    reference_differences_ = differences_of(groups).front();
-    held_ = system.constraints().held;
-    for (std::size_t v = 0; v < held_.size(); ++v) {
-      if (held_[v]) root_[static_cast<std::size_t>(components_.label[v])] = -1;
-    }
-    plan_tree();
-    factorise();
+    hold(system.constraints().held, reference);
   }
+}
+
+/// What is held is turned as it would be if all were: by the reference, with nothing held.
+void RotationBlend::hold(const std::vector<bool>& held, const Eigen::VectorXd& reference) {
+  const TransitionState all = reference.replicate(1, mesh_.connectivity.vertex_count);
+  const std::vector<LaneFrames> groups = synchronised({&all, 1});
+  reference_ = field_of(groups.front(), 0);
+  reference_differences_ = differences_of(groups).front();
+  held_ = held;
+  std::vector<int> starts;
+  for (std::size_t v = 0; v < held_.size(); ++v) {
+    if (!held_[v]) continue;
+    root_[static_cast<std::size_t>(components_.label[v])] = -1;
+    starts.push_back(static_cast<int>(v));
+  }
+  std::copy_if(root_.begin(), root_.end(), std::back_inserter(starts),
+               [](int root) { return root >= 0; });
+  turned_->tree = tree_from(turned_->rings, edges_, starts);
+  factorise();
 }
 
 RotationBlend::~RotationBlend() = default;
-
-/// What each vertex is turned by, unrolled: sums of the turns along the tree, as seen in space.
-Positions RotationBlend::unrolled(const Deformation& deformation) const {
-  Positions turned = Positions::Zero(mesh_.connectivity.vertex_count, 3);
-  for (const TreeStep& step : turned_->tree) {
-    const int first = std::min(step.from, step.to);
-    const Eigen::Vector3d turn = deformation.rotations[static_cast<std::size_t>(first)] *
-                                 deformation.turns[static_cast<std::size_t>(step.edge)];
-    turned.row(step.to) = turned.row(step.from);
-    turned.row(step.to) += (step.from == first ? 1 : -1) * turn.transpose();
-  }
-  return turned;
-}
-
-/// The vertex of each component whose rotations, unrolled, are nearest to their mean: a component
-/// is turned as a whole as its midst is, not as a detail.
-void RotationBlend::choose_roots() {
-  const auto count = static_cast<std::size_t>(components_.count);
-  root_.assign(count, -1);
-  for (std::size_t v = components_.label.size(); v-- > 0;) {
-    root_[static_cast<std::size_t>(components_.label[v])] = static_cast<int>(v);
-  }
-  plan_tree();
-  Eigen::VectorXd away = Eigen::VectorXd::Zero(gauge_.size());
-  for (const Deformation& deformation : deformations_) {
-    const Positions turned = unrolled(deformation);
-    Positions means = Positions::Zero(components_.count, 3);
-    for (Eigen::Index v = 0; v < gauge_.size(); ++v) {
-      means.row(components_.label[static_cast<std::size_t>(v)]) += gauge_(v) * turned.row(v);
-    }
-    for (Eigen::Index v = 0; v < gauge_.size(); ++v) {
-      const int component = components_.label[static_cast<std::size_t>(v)];
-      away(v) += (turned.row(v) - means.row(component)).squaredNorm();
-    }
-  }
-  std::vector<double> least(count, std::numeric_limits<double>::infinity());
-  for (Eigen::Index v = 0; v < gauge_.size(); ++v) {
-    const auto component = static_cast<std::size_t>(components_.label[static_cast<std::size_t>(v)]);
-    if (!(gauge_(v) > 0) || away(v) >= least[component]) continue;
-    least[component] = away(v);
-    root_[component] = static_cast<int>(v);
-  }
-}
-
-/// Breadth first, so that paths are short.
-void RotationBlend::plan_tree() {
-  const std::size_t vertex_count = components_.label.size();
-  std::vector<bool> is_reached = held_;
-  std::vector<int> open;
-  for (std::size_t v = 0; v < vertex_count; ++v) {
-    if (held_[v]) open.push_back(static_cast<int>(v));
-  }
-  for (const int root : root_) {
-    if (root < 0) continue;
-    is_reached[static_cast<std::size_t>(root)] = true;
-    open.push_back(root);
-  }
-  const std::vector<int> edge_to = edges_to_neighbours(turned_->rings, edges_);
-  turned_->tree.clear();
-  for (std::size_t next = 0; next < open.size(); ++next) {
-    const int vertex = open[next];
-    const auto v = static_cast<std::size_t>(vertex);
-    for (int n = turned_->rings.offsets[v]; n < turned_->rings.offsets[v + 1]; ++n) {
-      const auto place = static_cast<std::size_t>(n);
-      const int neighbour = turned_->rings.neighbours[place];
-      if (is_reached[static_cast<std::size_t>(neighbour)]) continue;
-      is_reached[static_cast<std::size_t>(neighbour)] = true;
-      turned_->tree.push_back({vertex, neighbour, edge_to[place]});
-      open.push_back(neighbour);
-    }
-  }
-}
 
 void RotationBlend::factorise() {
   unknowns_ = Unknowns(held_);

@@ -85,11 +85,9 @@ class RotationBlend {
   std::shared_ptr<const CholeskyFactor> factor() const { return factor_; }
 
  private:
-  void choose_roots();
-  void plan_tree();
+  void hold(const std::vector<bool>& held, const Eigen::VectorXd& reference);
   void factorise();
   void fit_sources();
-  Positions unrolled(const Deformation& deformation) const;
   LaneFrames first_guess(std::span<const TransitionState> states) const;
   std::vector<LaneFrames> synchronised(std::span<const TransitionState> states) const;
   void fit(std::vector<LaneFrames>& groups) const;

@@ -9,15 +9,10 @@
 #include "morphbake/linear/symmetric_system.h"
 #include "morphbake/mesh/adjacency.h"
 #include "morphbake/solve/frame_lanes.h"
+#include "morphbake/solve/rotation_tree.h"
 #include "morphbake/transition/timeline.h"
 
 namespace morphbake {
-
-/// From a vertex whose rotation is known along an edge to one whose rotation is not.
-struct TreeStep {
-  int from = 0, to = 0;
-  int edge = 0;
-};
 
 /// Shapes of a mesh and what turns them, as the passes over its edges read it.
 struct TurnedShapes {

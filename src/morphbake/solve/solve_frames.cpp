@@ -1,23 +1,25 @@
 #include "morphbake/solve/solve_frames.h"
 
 #include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
 
 #include <algorithm>
-#include <optional>
 #include <utility>
 
 namespace morphbake {
 namespace {
 
-constexpr std::size_t kFramesPerSolve = 16;  // columns of one pass over the factor: 48
-constexpr std::size_t kFramesPerGoals = 8;   // which share passes as well, where they need any
+constexpr std::size_t kFramesPerSolve = 16;   // columns of one pass over the factor: 48
+constexpr std::size_t kFramesPerGoals = 8;    // which share passes as well, where they need any
+constexpr std::size_t kFewestPerPass = 4;     // fewer would read the factor for too little
+constexpr std::size_t kFramesLookedBack = 2;  // whose solutions the next ones start from
 constexpr double kChunkBytes = 256e6;
-constexpr double kBytesPerVertexAndFrame = 150;  // goal, unknowns, residual, correction
+constexpr double kBytesPerVertexAndFrame = 96;  // differences, blend, unknowns, residual
 
 std::size_t chunk_length(const DisplacementSystem& system) {
   const auto vertices = static_cast<double>(system.components().label.size());
   const double frames = kChunkBytes / (kBytesPerVertexAndFrame * std::max(1.0, vertices));
-  return static_cast<std::size_t>(std::clamp(frames, 4.0, 64.0));
+  return static_cast<std::size_t>(std::clamp(frames, 8.0, 64.0));
 }
 
 /// A chunk of frames while it is solved.
@@ -32,7 +34,14 @@ Eigen::MatrixXd deviation(const SurfaceSolver& solver, const Chunk& chunk, std::
   return chunk.x[frame] - solver.system().start(chunk.goals[frame]);
 }
 
-/// Solves frames that do not need one another, sixteen a pass, passes over threads.
+/// How many frames share a pass: all threads shall have one. No frame sees another, so this changes
+/// the time, and no byte.
+std::size_t frames_a_pass(std::size_t count) {
+  const auto threads = static_cast<std::size_t>(tbb::this_task_arena::max_concurrency());
+  return std::clamp((count + threads - 1) / threads, kFewestPerPass, kFramesPerSolve);
+}
+
+/// Solves frames that do not need one another, several a pass, passes over threads.
 void solve_independent(const SurfaceSolver& solver, Chunk& chunk,
                        std::vector<std::size_t> members) {
   std::erase_if(members, [&](std::size_t i) {
@@ -40,10 +49,11 @@ void solve_independent(const SurfaceSolver& solver, Chunk& chunk,
     if (is_known) chunk.x[i] = solver.system().start(chunk.goals[i]);
     return is_known;
   });
-  const std::size_t passes = (members.size() + kFramesPerSolve - 1) / kFramesPerSolve;
+  const std::size_t length = frames_a_pass(members.size());
+  const std::size_t passes = (members.size() + length - 1) / length;
   tbb::parallel_for(std::size_t{0}, passes, [&](std::size_t pass) {
-    const std::size_t begin = pass * kFramesPerSolve;
-    const std::size_t end = std::min(members.size(), begin + kFramesPerSolve);
+    const std::size_t begin = pass * length;
+    const std::size_t end = std::min(members.size(), begin + length);
     std::vector<Goal> goals;
     std::vector<Eigen::MatrixXd> x;
     for (std::size_t i = begin; i < end; ++i) {
@@ -59,44 +69,18 @@ void solve_independent(const SurfaceSolver& solver, Chunk& chunk,
   });
 }
 
-/// Middles of neighbours that are already solved, level by level; ends first.
-std::vector<std::vector<std::pair<std::size_t, std::size_t>>> middle_levels(std::size_t count) {
-  std::vector<std::vector<std::pair<std::size_t, std::size_t>>> levels;
-  std::vector<std::pair<std::size_t, std::size_t>> spans = {{0, count - 1}};
-  while (!spans.empty()) {
-    std::vector<std::pair<std::size_t, std::size_t>> split, next;
-    for (const auto& [begin, end] : spans) {
-      if (end - begin < 2) continue;
-      const std::size_t middle = (begin + end) / 2;
-      split.emplace_back(begin, end);
-      next.emplace_back(begin, middle);
-      next.emplace_back(middle, end);
-    }
-    if (!split.empty()) levels.push_back(split);
-    spans = std::move(next);
+/// All at once; `warm` from what the last frame before them deviates by.
+void solve_together(const SurfaceSolver& solver, Chunk& chunk,
+                    const std::vector<Eigen::MatrixXd>& before) {
+  const bool starts_warm = solver.choice().solver == Solver::Warm && !before.empty();
+  std::vector<std::size_t> members;
+  for (std::size_t i = 0; i < chunk.x.size(); ++i) {
+    if (chunk.goals[i].is_blend()) continue;
+    members.push_back(i);
+    if (starts_warm) chunk.x[i] += before.back();
+    if (i + kFramesLookedBack < chunk.x.size()) chunk.goals[i].start.resize(0, 3);  // is done with
   }
-  return levels;
-}
-
-void solve_hierarchically(const SurfaceSolver& solver, Chunk& chunk,
-                          const std::optional<Eigen::MatrixXd>& before) {
-  const std::size_t last = chunk.x.size() - 1;
-  if (before) chunk.x[0] += *before;
-  solve_independent(solver, chunk, {0});
-  if (last == 0) return;
-  chunk.x[last] += deviation(solver, chunk, 0);
-  solve_independent(solver, chunk, {last});
-  for (const auto& level : middle_levels(chunk.x.size())) {
-    std::vector<std::size_t> members;
-    for (const auto& [begin, end] : level) {
-      const std::size_t middle = (begin + end) / 2;
-      const double share = static_cast<double>(middle - begin) / static_cast<double>(end - begin);
-      chunk.x[middle] +=
-          (1 - share) * deviation(solver, chunk, begin) + share * deviation(solver, chunk, end);
-      members.push_back(middle);
-    }
-    solve_independent(solver, chunk, members);
-  }
+  solve_independent(solver, chunk, std::move(members));
 }
 
 /// @param last  deviations of the two frames before the chunk, the newest last
@@ -113,7 +97,7 @@ void solve_in_order(const SurfaceSolver& solver, Chunk& chunk, std::vector<Eigen
 
 std::vector<Eigen::MatrixXd> last_two_deviations(const SurfaceSolver& solver, const Chunk& chunk) {
   std::vector<Eigen::MatrixXd> last;
-  for (std::size_t i = chunk.x.size() - std::min<std::size_t>(2, chunk.x.size());
+  for (std::size_t i = chunk.x.size() - std::min(kFramesLookedBack, chunk.x.size());
        i < chunk.x.size(); ++i) {
     last.push_back(deviation(solver, chunk, i));
   }
@@ -124,13 +108,8 @@ void solve_chunk(const SurfaceSolver& solver, Chunk& chunk,
                  const std::vector<Eigen::MatrixXd>& before) {
   if (solver.is_iterative()) {
     solve_in_order(solver, chunk, before);
-  } else if (solver.choice().solver == Solver::Warm) {
-    solve_hierarchically(solver, chunk,
-                         before.empty() ? std::nullopt : std::optional(before.back()));
   } else {
-    std::vector<std::size_t> all(chunk.x.size());
-    for (std::size_t i = 0; i < all.size(); ++i) all[i] = i;
-    solve_independent(solver, chunk, all);
+    solve_together(solver, chunk, before);
   }
 }
 
@@ -150,11 +129,12 @@ std::vector<SolveRecord> solve_frames(const SurfaceSolver& solver, const std::ve
     chunk.goals.resize(frames);
     chunk.x.resize(frames);
     chunk.reached.resize(frames);
-    const std::size_t batches = (frames + kFramesPerGoals - 1) / kFramesPerGoals;
+    const std::size_t together = std::min(frames_a_pass(frames), kFramesPerGoals);
+    const std::size_t batches = (frames + together - 1) / together;
     tbb::parallel_for(std::size_t{0}, batches, [&](std::size_t batch) {
       stop_if_cancelled(observer);
-      const std::size_t begin = batch * kFramesPerGoals;
-      const std::size_t end = std::min(frames, begin + kFramesPerGoals);
+      const std::size_t begin = batch * together;
+      const std::size_t end = std::min(frames, begin + together);
       std::vector<Goal> goals = goals_at({times.data() + first + begin, end - begin});
       for (std::size_t i = begin; i < end; ++i) {
         chunk.goals[i] = std::move(goals[i - begin]);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <utility>
 
 #include "morphbake/diagnostics/problem.h"
@@ -28,6 +29,19 @@ constexpr double kAmplificationMargin = 3;
 
 double largest_row(const Eigen::MatrixXd& rows) {
   return rows.rows() == 0 ? 0 : std::sqrt(rows.rowwise().squaredNorm().maxCoeff());
+}
+
+/// Adds three of the columns, row by row.
+///
+/// @return  the longest row that was added
+double add_columns(const ColumnRows& columns, Eigen::Index first, Eigen::MatrixXd& x) {
+  double longest = 0;
+  for (Eigen::Index row = 0; row < x.rows(); ++row) {
+    const Eigen::RowVector3d added = columns.block<1, 3>(row, first);
+    x.row(row) += added;
+    longest = std::max(longest, added.squaredNorm());
+  }
+  return std::sqrt(longest);
 }
 
 double expected_factor_bytes(const DisplacementSystem& system) {
@@ -69,7 +83,7 @@ SolverChoice choose_solver(const DisplacementSystem& system, const SolveOptions&
   const double gigabytes = expected_factor_bytes(system) / 1e9;
   if (!allows_factor(system, options)) {
     return {Solver::ConjugateGradients,
-            fmt::format("a factor would take about {:.2g} GB, of {:.2g}", gigabytes,
+            fmt::format("a factor would take about {:.2g} GB, the limit is {:.2g}", gigabytes,
                         options.memory_limit)};
   }
   if (options.every_frame) {
@@ -138,7 +152,7 @@ std::vector<Convergence> SurfaceSolver::solve(const std::vector<Goal>& goals,
     stop.max_iterations = options_.max_iterations;
     stop.on_check = [this](const Eigen::MatrixXd&, double) { stop_if_cancelled(observer_); };
     for (std::size_t i = 0; i < goals.size(); ++i) {
-      const Eigen::MatrixXd b = system_.residual(goals[i], Eigen::MatrixXd::Zero(x[i].rows(), 3));
+      const Eigen::MatrixXd b = system_.right_hand_side(goals[i]);
       reached.push_back(iteration()(b, stop, x[i]));
     }
   } else {
@@ -155,31 +169,32 @@ std::vector<Convergence> SurfaceSolver::solve_by_factor(const std::vector<Goal>&
                                                         std::vector<Eigen::MatrixXd>& x) const {
   const CholeskyFactor& factor = *std::get<Factor>(method_);
   const double tolerance = options_.tolerance * system_.diagonal();
-  const auto columns = static_cast<Eigen::Index>(3 * goals.size());
+  const Eigen::Index rows = system_.equations().matrix.rows();
   std::vector<Convergence> reached(goals.size());
-  Eigen::MatrixXd residuals(system_.equations().matrix.rows(), columns);
-  bool all_reached = residuals.rows() == 0;
-  for (int pass = 0; !all_reached && pass < kCorrectionLimit; ++pass) {
-    for (std::size_t i = 0; i < goals.size(); ++i) {
-      residuals.middleCols(3 * static_cast<Eigen::Index>(i), 3) = system_.residual(goals[i], x[i]);
+  std::vector<std::size_t> open(rows > 0 ? goals.size() : 0);  // each ends by itself
+  std::iota(open.begin(), open.end(), std::size_t{0});
+  for (int pass = 1; pass <= kCorrectionLimit && !open.empty(); ++pass) {
+    ColumnRows corrections(rows, 3 * static_cast<Eigen::Index>(open.size()));
+    for (std::size_t k = 0; k < open.size(); ++k) {
+      corrections.middleCols(3 * static_cast<Eigen::Index>(k), 3) =
+          system_.residual(goals[open[k]], x[open[k]]);
     }
-    Eigen::MatrixXd corrections = factor.solve(residuals);
+    factor.solve_in_place(corrections);
     remove_block_means(system_.equations(), corrections);
-    all_reached = true;
-    for (std::size_t i = 0; i < goals.size(); ++i) {
-      const auto correction = corrections.middleCols(3 * static_cast<Eigen::Index>(i), 3);
-      x[i] += correction;
-      reached[i].iterations = pass + 1;
-      reached[i].error = contraction_ * largest_row(correction);
-      reached[i].reached = reached[i].error <= tolerance;
-      all_reached = all_reached && reached[i].reached;
+    for (std::size_t k = 0; k < open.size(); ++k) {
+      Convergence& own = reached[open[k]];
+      own.iterations = pass;
+      own.error =
+          contraction_ * add_columns(corrections, 3 * static_cast<Eigen::Index>(k), x[open[k]]);
+      own.reached = own.error <= tolerance;
     }
+    std::erase_if(open, [&](std::size_t i) { return reached[i].reached; });
   }
   for (std::size_t i = 0; i < goals.size(); ++i) {
-    const double scale = system_.residual(goals[i], Eigen::MatrixXd::Zero(x[i].rows(), 3)).norm();
+    const double scale = system_.right_hand_side(goals[i]).norm();
     const double residual = system_.residual(goals[i], x[i]).norm();
     reached[i].residual = scale > 0 ? residual / scale : residual;
-    reached[i].reached = reached[i].reached || residuals.rows() == 0;
+    reached[i].reached = reached[i].reached || rows == 0;
   }
   return reached;
 }

@@ -140,6 +140,8 @@ std::size_t file_of(const Recipe& recipe, std::size_t shape) {
 std::vector<int> shapes_with_a_share(const Recipe& recipe) {
   std::vector<bool> has_share(recipe.sources.size() + recipe.derived.size(), false);
   const auto add = [&](const Shares& shares) {
+    // Fitted shapes come after those that the recipe names.
+    has_share.resize(std::max(has_share.size(), static_cast<std::size_t>(shares.rows())), false);
     for (Eigen::Index row = 0; row < shares.rows(); ++row) {
       if (!shares.row(row).isZero(0)) has_share[static_cast<std::size_t>(row)] = true;
     }
