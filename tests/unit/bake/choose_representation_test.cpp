@@ -20,8 +20,8 @@ Recipe recipe_of(Representation representation) {
 
 TEST(ChooseRepresentation, MeasuresHowFarShapesAreTurned) {
   const Mesh bar = test::bar(8);
-  const MorphableMesh turned = test::morphable(
-      bar.triangles, {bar.positions, test::bent_and_twisted(bar.positions, 0, 2)});
+  const MorphableMesh turned =
+      test::morphable(bar.triangles, {bar.positions, test::bent_and_twisted(bar.positions, 0, 2)});
   EXPECT_EQ(choose_representation(recipe_of(Representation::Auto), turned, nobody).representation,
             Representation::Rotation);
   const MorphableMesh still = test::morphable(bar.triangles, {bar.positions, 2 * bar.positions});
