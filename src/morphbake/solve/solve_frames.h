@@ -19,9 +19,9 @@ using FrameConsumer = std::function<void(int frame, const Positions& displacemen
 ///
 /// What is carried from frame to frame is how far solutions are from the blend of the sources,
 /// which changes slower than they do. `warm` starts all frames of a chunk from that of the last one
-/// before it: two corrections are needed from any start, and many frames at once are cheaper than
-/// better starts. `direct` starts from the blend alone. Iterations go through time, each frame from
-/// the line through the last two. Chunks depend on the number of vertices, never on threads.
+/// before it, so that they share passes over the factor. `direct` starts from the blend alone.
+/// Iterations go through time, each frame from the line through the last two. Chunks depend on the
+/// number of vertices, never on threads.
 /// @return           one record a frame that needed a solve
 std::vector<SolveRecord> solve_frames(const SurfaceSolver& solver, const std::vector<double>& times,
                                       const GoalsAt& goals_at, const Observer& observer,
