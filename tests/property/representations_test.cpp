@@ -256,7 +256,7 @@ TEST(Rotation, HeldPartsOfAMixStandAsTheMixDoes) {
   const Shapes held(mesh, rule);
   const Positions free = Shapes(mesh).of_mix(Eigen::Vector2d(0.5, 0.5));
   const Positions mix = held.of_mix(Eigen::Vector2d(0.5, 0.5));
-  EXPECT_LT(largest_distance(mix, held.states().rest), 1e-6);
+  EXPECT_LT(largest_distance(mix, held.states().rest), 1e-7);
   EXPECT_LT(largest_distance(mix, free), 5e-3);  // whose rotations were fitted
 }
 

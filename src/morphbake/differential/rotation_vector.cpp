@@ -5,6 +5,7 @@
 #include <cmath>
 
 namespace morphbake {
+
 Eigen::Vector3d rotation_vector(const Eigen::Quaterniond& rotation) {
   const double sign = rotation.w() < 0 ? -1 : 1;
   const double square = rotation.vec().squaredNorm();

@@ -27,8 +27,9 @@ struct Workspace {
     cholmod_start(&common);
     common.print = 0;
     common.supernodal = CHOLMOD_SUPERNODAL;
+    if (ordering == Ordering::MinimumDegree) return;  // CHOLMOD's own way
     common.nmethods = 1;
-    common.method[0].ordering = ordering == Ordering::MinimumDegree ? CHOLMOD_AMD : CHOLMOD_METIS;
+    common.method[0].ordering = CHOLMOD_METIS;
   }
 
   Workspace(const Workspace&) = delete;

@@ -13,8 +13,8 @@ namespace morphbake {
 /// the system's condition: right for corrections, whose residuals are formed in float64.
 enum class Precision { Double, Single };
 
-/// In which order the unknowns are eliminated. Nested dissection takes longer to find, and gives
-/// factors of 0.65 to 0.85 times the size.
+/// In which order the unknowns are eliminated. Nested dissection takes longer to find, and mostly
+/// gives smaller factors; with minimum degree CHOLMOD tries it only where much is filled in.
 enum class Ordering { MinimumDegree, NestedDissection };
 
 /// The ordering with which a factor and its solves take less time.

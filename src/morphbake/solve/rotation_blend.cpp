@@ -14,8 +14,10 @@
 namespace morphbake {
 namespace {
 
-/// Radians of a step. Steps shrink tenfold each, so no more than a tenth of it is left.
+/// Radians of a step. Steps shrink tenfold each, so no more than a tenth of it is left. What is
+/// not fitted afterwards settles further.
 constexpr double kSettled = 1e-4;
+constexpr double kSettledForGood = 1e-6;
 constexpr int kMostSteps = 50;
 
 /// Beyond these nothing is gained that shows: lengths and areas of poses are within 10 % of ARAP's
@@ -224,7 +226,8 @@ std::vector<LaneFrames> RotationBlend::synchronised(std::span<const TransitionSt
     solve_in_place(columns);
     remove_block_means(equations_, columns);
     for (std::size_t g = 0; g < groups.size(); ++g) {
-      turn_by(columns, static_cast<int>(g), unknowns_.of_row, kSettled, moves[g], groups[g]);
+      turn_by(columns, static_cast<int>(g), unknowns_.of_row, holds_ ? kSettledForGood : kSettled,
+              moves[g], groups[g]);
     }
   }
   for (std::size_t g = 0; g < groups.size(); ++g) {
