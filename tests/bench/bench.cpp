@@ -1,5 +1,5 @@
 // bench [NAME...] [> TABLE]: measures everything, or what is named: solve, regions, eigenvectors,
-// load, export, preview. With --json FILE first it writes the figures there as well.
+// load, targets, export, preview. With --json FILE first it writes the figures there as well.
 
 #include <fmt/core.h>
 #include <malloc.h>
@@ -82,6 +82,7 @@ int main(int argc, char** argv) {
       {"regions", at_each_size(bench_regions)},
       {"eigenvectors", [](Figures& figures) { bench_eigenvectors(50000, figures); }},
       {"load", [](Figures& figures) { bench_load(500000, figures); }},
+      {"targets", [](Figures& figures) { bench_targets(100000, 240, figures); }},
       {"export", [](Figures& figures) { bench_export(100000, figures); }},
       {"preview", [](Figures& figures) { bench_preview(100000, figures); }},
   };

@@ -47,6 +47,7 @@ void bench_rotations(int vertices, Figures& figures);
 void bench_regions(int vertices, Figures& figures);
 void bench_eigenvectors(int vertices, Figures& figures);
 void bench_load(int vertices, Figures& figures);
+void bench_targets(int vertices, int frames, Figures& figures);
 void bench_export(int vertices, Figures& figures);
 void bench_preview(int vertices, Figures& figures);
 

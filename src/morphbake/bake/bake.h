@@ -23,10 +23,12 @@ struct NormalReport {
 struct OutputReport {
   std::filesystem::path file;
   std::size_t bytes = 0;
+  std::string kind;  ///< of targets: "tracks", "keyframes", "basis", "frames", or "still"
   std::vector<std::string> targets;
   int weight_keys = 0;
-  double max_error =
-      0;  ///< of the written positions at frames and middles, fraction of the diagonal
+  double max_error = 0;   ///< of written positions at frames and middles, share of the diagonal
+  double worst_time = 0;  ///< seconds, of that
+  int worst_vertex = 0;   ///< of the file, counted over its primitives; of that
   NormalReport normals;
   std::vector<std::filesystem::path> previews;
 };

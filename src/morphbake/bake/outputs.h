@@ -22,6 +22,7 @@ struct SolvedRecipe {
 struct StagedOutput {
   OutputReport report;
   std::filesystem::path file;  ///< the temporary one
+  int node = 0;                ///< of the file: that shows the morph
 };
 
 /// Reduces, writes and measures one output.

@@ -25,9 +25,14 @@ Json to_json(const NormalReport& normals) {
 Json to_json(const OutputReport& output) {
   Json previews = Json::array();
   for (const auto& file : output.previews) previews.push_back(file.string());
-  return {{"file", output.file.string()},  {"bytes", output.bytes},
-          {"targets", output.targets},     {"weight_keys", output.weight_keys},
-          {"max_error", output.max_error}, {"normals", to_json(output.normals)},
+  return {{"file", output.file.string()},
+          {"bytes", output.bytes},
+          {"kind", output.kind},
+          {"targets", output.targets},
+          {"weight_keys", output.weight_keys},
+          {"max_error", output.max_error},
+          {"worst", {{"time", output.worst_time}, {"vertex", output.worst_vertex}}},
+          {"normals", to_json(output.normals)},
           {"previews", previews}};
 }
 

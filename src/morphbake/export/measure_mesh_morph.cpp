@@ -81,7 +81,7 @@ MomentError measure_moment(const Comparison& compared, const Positions& expected
   if (groups.count > 0) expected_normals = deformed_normals(groups, compared.mesh, expected);
   MomentError moment;
   MorphError& error = moment.error;
-  error.normal_time = time;
+  error.distance_time = error.normal_time = time;
   const auto add_angle = [&](double angle, std::size_t render) {
     moment.angles.add(angle);
     if (angle <= error.normal_angle) return;
@@ -97,7 +97,11 @@ MomentError measure_moment(const Comparison& compared, const Positions& expected
       const int vertex = compared.mesh.vertex_of_render[render];
       if (vertex < 0) continue;
       const Eigen::RowVector3d at = positions.row(r) * linear.transpose() + translation;
-      error.distance = std::max(error.distance, (at - expected.row(vertex)).norm());
+      const double distance = (at - expected.row(vertex)).norm();
+      if (distance > error.distance) {
+        error.distance = distance;
+        error.distance_vertex = static_cast<int>(render);
+      }
       if (groups.count == 0) continue;
       const Eigen::Vector3d normal = (normals.row(r) * inverse).transpose();
       add_angle(angle_between(normal, expected_normals.row(groups.of_render[render])), render);
@@ -124,7 +128,11 @@ MorphError measure_mesh_morph(const MorphableMesh& mesh, const AnimatedMesh& wri
       moments[i] = measure_moment(compared, expected[i], times[begin + i]);
     });
     for (const MomentError& moment : moments) {
-      worst.distance = std::max(worst.distance, moment.error.distance);
+      if (moment.error.distance > worst.distance) {
+        worst.distance = moment.error.distance;
+        worst.distance_time = moment.error.distance_time;
+        worst.distance_vertex = moment.error.distance_vertex;
+      }
       angles.add(moment.angles);
       if (moment.error.normal_angle <= worst.normal_angle) continue;
       worst.normal_angle = moment.error.normal_angle;

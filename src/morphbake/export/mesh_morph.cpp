@@ -1,5 +1,7 @@
 #include "morphbake/export/mesh_morph.h"
 
+#include <tbb/parallel_for.h>
+
 #include <Eigen/LU>
 #include <Eigen/QR>
 #include <algorithm>
@@ -17,43 +19,97 @@ Normals to_mesh_space(const Normals& scene_normals, const Eigen::Matrix3d& linea
   return (scene_normals * linear).rowwise().normalized();
 }
 
-/// Least-squares fit of normal displacements to the weights over all frames.
-std::vector<Normals> fit_normal_targets(const MorphableMesh& mesh, const MorphBasis& basis,
-                                        const SmoothingGroups& groups,
-                                        const std::vector<ReferenceMotion>& motions,
-                                        const Eigen::Matrix3d& linear) {
-  const auto target_count = static_cast<Eigen::Index>(basis.targets.size());
-  if (target_count == 0) return {};
-  const Normals rest = to_mesh_space(deformed_normals(groups, mesh, basis.base), linear);
-  Eigen::MatrixXd gram = Eigen::MatrixXd::Zero(target_count, target_count);
-  std::vector<Normals> moments(basis.targets.size(), Normals::Zero(groups.count, 3));
-  const auto add = [&](const Eigen::VectorXd& w, const ReferenceMotion& motion, double time) {
-    gram += w * w.transpose();
-    if (w.isZero(0)) return;
-    const Positions positions = motion.positions_at(time);
-    const Normals difference =
-        to_mesh_space(deformed_normals(groups, mesh, positions), linear) - rest;
-    for (Eigen::Index k = 0; k < target_count; ++k) {
-      if (w(k) != 0) moments[static_cast<std::size_t>(k)] += w(k) * difference;
-    }
-  };
+/// Normals of groups in mesh space, as glTF morphs them: rest + sum_k w_k target_k.
+struct NormalBasis {
+  Normals rest;
+  std::vector<Normals> targets;
+};
+
+using NormalRows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
+/// Sums over all frames of a least-squares fit of normals to the weights.
+struct NormalMoments {
+  Eigen::MatrixXd gram;  ///< #numbers by #numbers: the weights, and 1 where rest is fitted too
+  NormalRows sums;       ///< #numbers by 3 #groups
+};
+
+NormalMoments normal_moments(const MorphableMesh& mesh, const MorphBasis& basis,
+                             const SmoothingGroups& groups,
+                             const std::vector<ReferenceMotion>& motions,
+                             const Eigen::Matrix3d& linear, const Normals& rest) {
+  const auto targets = static_cast<Eigen::Index>(basis.targets.size());
+  const Eigen::Index count = targets + (basis.kind == TargetKind::Basis ? 1 : 0);
+  NormalMoments moments{Eigen::MatrixXd::Zero(count, count),
+                        NormalRows::Zero(count, 3 * Eigen::Index{groups.count})};
+  Eigen::VectorXd numbers = Eigen::VectorXd::Ones(count);
   for (std::size_t c = 0; c < motions.size(); ++c) {
     const WeightKeys& keys = basis.clips[c];
     for (const double time : motions[c].frame_times) {
-      add(interpolate_keys(keys.times, keys.weights, time), motions[c], time);
-    }
-  }
-  // Targets that never move, or move together, leave the Gram matrix singular: least norm then.
-  const Eigen::MatrixXd inverse = gram.completeOrthogonalDecomposition().pseudoInverse();
-  std::vector<Normals> fitted(basis.targets.size(), Normals::Zero(groups.count, 3));
-  for (Eigen::Index k = 0; k < target_count; ++k) {
-    for (Eigen::Index m = 0; m < target_count; ++m) {
-      if (inverse(k, m) != 0) {
-        fitted[static_cast<std::size_t>(k)] += inverse(k, m) * moments[static_cast<std::size_t>(m)];
+      numbers.head(targets) = interpolate_keys(keys.times, keys.weights, time);
+      moments.gram += numbers * numbers.transpose();
+      if (numbers.isZero(0)) continue;
+      const Positions positions = motions[c].positions_at(time);
+      const Normals difference =
+          to_mesh_space(deformed_normals(groups, mesh, positions), linear) - rest;
+      const Eigen::Map<const Eigen::RowVectorXd> row(difference.data(), difference.size());
+      for (Eigen::Index k = 0; k < count; ++k) {
+        if (numbers(k) != 0) moments.sums.row(k) += numbers(k) * row;
       }
     }
   }
-  return fitted;
+  return moments;
+}
+
+/// rows <- matrix rows. Of frames that fade into one another the matrix is nearly empty.
+void apply(const Eigen::MatrixXd& matrix, NormalRows& rows) {
+  constexpr Eigen::Index kColumns = 1024;  // at once: they stay in caches
+  const Eigen::Index parts = (rows.cols() + kColumns - 1) / kColumns;
+  tbb::parallel_for(Eigen::Index{0}, parts, [&](Eigen::Index part) {
+    const Eigen::Index first = part * kColumns;
+    const Eigen::Index columns = std::min(kColumns, rows.cols() - first);
+    const NormalRows old = rows.middleCols(first, columns);
+    rows.middleCols(first, columns).setZero();
+    for (Eigen::Index k = 0; k < matrix.rows(); ++k) {
+      for (Eigen::Index m = 0; m < matrix.cols(); ++m) {
+        if (matrix(k, m) != 0) rows.row(k).segment(first, columns) += matrix(k, m) * old.row(m);
+      }
+    }
+  });
+}
+
+/// Shaders norm what they morph: each group may have its own scale, so that its rest is a unit
+/// normal, as glTF wants it.
+void scale_to_unit_rest(const Normals& fitted, NormalBasis& normals) {
+  constexpr double kShortest = 1e-6;
+  for (Eigen::Index g = 0; g < fitted.rows(); ++g) {
+    const double length = fitted.row(g).norm();
+    if (!(length > kShortest)) continue;  // the fit says nothing: rest stays the surface's normal
+    normals.rest.row(g) = fitted.row(g) / length;
+    for (Normals& target : normals.targets) target.row(g) /= length;
+  }
+}
+
+/// Least-squares fit of the deformed normals to the weights over all frames. Where the base is no
+/// frame, rest is fitted as well: no normal of a frame is to be kept.
+NormalBasis fit_normals(const MorphableMesh& mesh, const MorphBasis& basis,
+                        const SmoothingGroups& groups, const std::vector<ReferenceMotion>& motions,
+                        const Eigen::Matrix3d& linear) {
+  NormalBasis normals{to_mesh_space(deformed_normals(groups, mesh, basis.base), linear), {}};
+  if (basis.targets.empty()) return normals;
+  NormalMoments moments = normal_moments(mesh, basis, groups, motions, linear, normals.rest);
+  // Targets that never move, or move together, leave the Gram matrix singular: least norm then.
+  const Eigen::MatrixXd inverse = moments.gram.completeOrthogonalDecomposition().pseudoInverse();
+  apply(inverse, moments.sums);
+  const auto rows_of = [&](Eigen::Index number) {
+    return Eigen::Map<const Normals>(moments.sums.row(number).data(), groups.count, 3);
+  };
+  for (std::size_t k = 0; k < basis.targets.size(); ++k) {
+    normals.targets.emplace_back(rows_of(static_cast<Eigen::Index>(k)));
+  }
+  if (basis.kind == TargetKind::Basis) {
+    scale_to_unit_rest(normals.rest + rows_of(moments.sums.rows() - 1), normals);
+  }
+  return normals;
 }
 
 /// Rows of `of_vertex` for the render vertices begin, begin + 1, ...; zero for those that no
@@ -78,14 +134,12 @@ MeshMorph empty_morph(const SourceMesh& first) {
 }
 
 /// Adds rest geometry: the file's own numbers, moved by how far `positions` are from the source's.
+///
+/// @param normals  of the groups there, mesh space
 void add_rest(const SourceMesh& first, const MorphableMesh& mesh, const SmoothingGroups& groups,
-              const Positions& positions, MeshMorph& morph) {
+              const Positions& positions, const Normals& normals, MeshMorph& morph) {
   const Eigen::Matrix3d to_mesh = linear_part(first).inverse();
   const Positions moved = (positions - mesh.geometries[0]) * to_mesh.transpose();
-  Normals normals;
-  if (groups.count > 0) {
-    normals = to_mesh_space(deformed_normals(groups, mesh, positions), linear_part(first));
-  }
   const bool is_source = moved.isZero(0);  // then the file's own normals stand too, bit for bit
   morph.replaces_base = !is_source || !first.geometry.is_at_rest;
   Eigen::Index begin = 0;
@@ -148,11 +202,11 @@ MeshMorph make_mesh_morph(const SourceMesh& first, const MorphableMesh& mesh,
                           const MorphBasis& basis, const SmoothingGroups& groups,
                           const std::vector<ReferenceMotion>& motions) {
   MeshMorph morph = empty_morph(first);
-  add_rest(first, mesh, groups, basis.base, morph);
   const Eigen::Matrix3d linear = linear_part(first);
   const Eigen::Matrix3d to_mesh = linear.inverse();
-  std::vector<Normals> normals;
-  if (groups.count > 0) normals = fit_normal_targets(mesh, basis, groups, motions, linear);
+  NormalBasis normals;
+  if (groups.count > 0) normals = fit_normals(mesh, basis, groups, motions, linear);
+  add_rest(first, mesh, groups, basis.base, normals.rest, morph);
   for (std::size_t k = 0; k < basis.targets.size(); ++k) {
     morph.target_names.push_back(basis.targets[k].name);
     const Positions displacement = basis.targets[k].displacement * to_mesh.transpose();
@@ -162,7 +216,7 @@ MeshMorph make_mesh_morph(const SourceMesh& first, const MorphableMesh& mesh,
       primitive.target_positions.push_back(
           spread(displacement, mesh.vertex_of_render, begin, count));
       if (groups.count > 0) {
-        primitive.target_normals.push_back(spread(normals[k], groups.of_render, begin, count));
+        primitive.target_normals.push_back(spread(normals.targets[k], groups.of_render, begin, count));
       }
       begin += count;
     }
@@ -176,7 +230,11 @@ MeshMorph make_mesh_morph(const SourceMesh& first, const MorphableMesh& mesh,
 MeshMorph make_still(const SourceMesh& first, const MorphableMesh& mesh,
                      const SmoothingGroups& groups, const Positions& positions) {
   MeshMorph morph = empty_morph(first);
-  add_rest(first, mesh, groups, positions, morph);
+  Normals normals;
+  if (groups.count > 0) {
+    normals = to_mesh_space(deformed_normals(groups, mesh, positions), linear_part(first));
+  }
+  add_rest(first, mesh, groups, positions, normals, morph);
   return morph;
 }
 

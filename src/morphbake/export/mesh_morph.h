@@ -50,6 +50,8 @@ MeshMorph make_still(const SourceMesh& first, const MorphableMesh& mesh,
 /// them.
 struct MorphError {
   double distance = 0;         ///< scene units, largest
+  double distance_time = 0;    ///< seconds, where that is
+  int distance_vertex = 0;     ///< vertex of the first source's file where it is
   double normal_angle = 0;     ///< degrees, largest
   double normal_angle_99 = 0;  ///< degrees, of 99 in 100 vertices and moments
   double normal_time = 0;      ///< seconds, where the largest is

@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <limits>
 #include <utility>
@@ -138,12 +139,26 @@ int append_vectors(GlbDraft& draft, const Float3s& rows) {
                                  {"max", column_maxima(rows)}});
 }
 
+void require_extension(Json& json, const char* name) {
+  for (const char* list : {"extensionsUsed", "extensionsRequired"}) {
+    Json& names = json[list];
+    if (names.is_null()) names = Json::array();
+    if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+  }
+}
+
 std::string glb_bytes(GlbDraft& draft) {
   draft.align();
   if (draft.binary.empty()) {
     draft.json.erase("buffers");
   } else {
     draft.json["buffers"] = Json::array({one_buffer(draft)});
+  }
+  if (draft.fallback_bytes > 0) {
+    const Json is_fallback = {{"fallback", true}};
+    const Json extensions = {{"EXT_meshopt_compression", is_fallback}};
+    draft.json["buffers"].push_back(
+        Json{{"byteLength", draft.fallback_bytes}, {"extensions", extensions}});
   }
   put_list(draft, "bufferViews", draft.views);
   put_list(draft, "accessors", draft.accessors);

@@ -38,6 +38,7 @@ struct GlbDraft {
   Json accessors = Json::array();
   std::string binary;
   std::vector<std::size_t> buffer_begins;  ///< in `binary`, one a buffer that was joined
+  std::size_t fallback_bytes = 0;  ///< of a second buffer, which compressed bufferViews unpack to
   Leftovers leftovers;
   std::filesystem::path shown;  ///< what messages call the file
 
@@ -89,6 +90,9 @@ int append_accessor(GlbDraft& draft, Json accessor);
 
 /// Appends float VEC3 vertex attributes with their bounds; returns their accessor.
 int append_vectors(GlbDraft& draft, const Float3s& rows);
+
+/// Says that the file cannot be read without an extension.
+void require_extension(Json& json, const char* name);
 
 /// The finished file.
 ///

@@ -1,58 +1,17 @@
 #include <algorithm>
-#include <map>
 #include <set>
 #include <string>
 #include <utility>
 
+#include "morphbake/gltf/displacements.h"
 #include "morphbake/gltf/morph_writing.h"
 
 namespace morphbake {
 namespace {
 
-constexpr int kUnsignedByte = 5121;
-
-/// Displacements that are zero.
-class StillDisplacements {
- public:
-  explicit StillDisplacements(GlbDraft& draft) : draft_(draft) {}
-
-  /// Zeros of that many vertices. Clients disagree about accessors without any bytes, so one of the
-  /// zeros is told.
-  ///
-  /// @param type  "VEC2" to "VEC4"
-  int accessor_of(Eigen::Index vertices, const std::string& type) {
-    const auto [entry, is_new] = accessors_.try_emplace({vertices, type}, -1);
-    if (is_new) entry->second = append(vertices, type);
-    return entry->second;
-  }
-
- private:
-  int append(Eigen::Index vertices, const std::string& type) {
-    if (index_ < 0) {
-      constexpr unsigned char kFirst = 0;
-      constexpr float kZeros[4] = {0, 0, 0, 0};
-      index_ = append_view(draft_, &kFirst, sizeof kFirst, BufferUse::Other);
-      zeros_ = append_view(draft_, kZeros, sizeof kZeros, BufferUse::Other);
-    }
-    const Json sparse = {{"count", 1},
-                         {"indices", {{"bufferView", index_}, {"componentType", kUnsignedByte}}},
-                         {"values", {{"bufferView", zeros_}}}};
-    Json accessor = {{"componentType", kFloatComponent},
-                     {"count", vertices},
-                     {"type", type},
-                     {"sparse", sparse}};
-    if (type == "VEC3") accessor["min"] = accessor["max"] = {0.0, 0.0, 0.0};
-    return append_accessor(draft_, std::move(accessor));
-  }
-
-  GlbDraft& draft_;
-  std::map<std::pair<Eigen::Index, std::string>, int> accessors_;
-  int index_ = -1, zeros_ = -1;  // bufferViews, one of each a file
-};
-
 /// Gives a primitive's targets the same of the attributes that clients know: where a target lacks
 /// one that others have, three.js takes the vertices' own normals or colours for displacements.
-void complete_targets(StillDisplacements& still, const Json& accessors, Eigen::Index vertices,
+void complete_targets(Displacements& displacements, const Json& accessors, Eigen::Index vertices,
                       Json& targets) {
   for (const char* name :
        {"POSITION", "NORMAL", "TANGENT", "TEXCOORD_0", "TEXCOORD_1", "COLOR_0"}) {
@@ -62,23 +21,23 @@ void complete_targets(StillDisplacements& still, const Json& accessors, Eigen::I
     const std::string type = accessors.at(first->at(name).get<std::size_t>()).at("type");
     if (!type.starts_with("VEC")) continue;  // not legal; whatever it means
     for (Json& target : targets) {
-      if (!has(target)) target[name] = still.accessor_of(vertices, type);
+      if (!has(target)) target[name] = displacements.zeros(vertices, type);
     }
   }
 }
 
-void append_targets(MorphWriting& writing, StillDisplacements& still, const PrimitiveMorph& morph,
-                    Json& primitive) {
+void append_targets(MorphWriting& writing, Displacements& displacements,
+                    const PrimitiveMorph& morph, Json& primitive) {
   for (std::size_t t = 0; t < morph.target_positions.size(); ++t) {
-    Json target = {{"POSITION", append_vectors(writing.draft, morph.target_positions[t])}};
+    Json target = {{"POSITION", displacements.append(morph.target_positions[t])}};
     if (!morph.target_normals.empty()) {
-      target["NORMAL"] = append_vectors(writing.draft, morph.target_normals[t]);
+      target["NORMAL"] = displacements.append(morph.target_normals[t]);
     }
     primitive["targets"].push_back(std::move(target));
   }
   const auto targets = primitive.find("targets");
   if (targets == primitive.end()) return;
-  complete_targets(still, writing.draft.accessors, morph.positions.rows(), *targets);
+  complete_targets(displacements, writing.draft.accessors, morph.positions.rows(), *targets);
 }
 
 /// Importers look for names in extras.targetNames. Extras of another kind than an object, which are
@@ -127,9 +86,9 @@ void extend_weights(MorphWriting& writing) {
 void place_targets(MorphWriting& writing) {
   const MeshMorph& morph = writing.morph;
   Json& primitives = mesh_of(writing)["primitives"];
-  StillDisplacements still(writing.draft);
+  Displacements displacements(writing.draft, morph.may_be_sparse);
   for (std::size_t p = 0; p < morph.primitives.size(); ++p) {
-    append_targets(writing, still, morph.primitives[p], primitives[p]);
+    append_targets(writing, displacements, morph.primitives[p], primitives[p]);
   }
   name_targets(writing);
   extend_weights(writing);

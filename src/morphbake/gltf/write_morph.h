@@ -32,6 +32,7 @@ struct MeshMorph {
   int mesh = 0;
   bool replaces_base = false;              ///< whether the base shape is another than the file's
   bool drops_skin = false;                 ///< the base shape is posed, in the node's own space
+  bool may_be_sparse = true;               ///< whether targets may be sparse accessors
   std::vector<PrimitiveMorph> primitives;  ///< one a primitive of the mesh
   std::vector<std::string> target_names;   ///< unique, non-empty; as wished
   std::vector<MorphClip> clips;            ///< one at least where there are targets

@@ -58,6 +58,19 @@ NormalBounds read_normal_bounds(const Json& output) {
   return bounds;
 }
 
+TargetKind read_targets(Reading& reading, const Json& output, const std::string& pointer) {
+  const TargetKind kind = target_kind_named(output.value("targets", "auto"));
+  const Timeline& timeline = reading.recipe.timeline;
+  const double frames = 1 + timeline.duration * timeline.frames_per_second;
+  if (kind == TargetKind::Basis && frames > kMostFramesOfBasis) {
+    complain(reading, "recipe.out-of-range", pointer + "/targets",
+             fmt::format("a basis is found among {} frames at most; the timeline has {:.0f}",
+                         kMostFramesOfBasis, frames),
+             "use \"keyframes\", a lower fps or a shorter timeline");
+  }
+  return kind;
+}
+
 Output read_output(Reading& reading, const Json& json, const std::string& pointer) {
   Output output;
   output.file = inside_folder(reading.folder, json["file"].get<std::string>());
@@ -66,9 +79,11 @@ Output read_output(Reading& reading, const Json& json, const std::string& pointe
              fmt::format("{} leaves the recipe's folder", shown(json["file"])),
              "outputs are written below the recipe's folder; --output-dir chooses another one");
   }
-  if (json.value("targets", "") == "frames") output.targets = TargetKind::Frames;
-  if (json.value("targets", "") == "tracks") output.targets = TargetKind::Tracks;
+  output.targets = read_targets(reading, json, pointer);
+  output.max_error = json.value("max_error", output.max_error);
   output.max_normal_error = read_normal_bounds(json);
+  if (json.value("encoding", "") == "quantised") output.encoding = Encoding::Quantised;
+  if (json.value("compression", "") == "meshopt") output.compression = Compression::Meshopt;
   output.unmet_is_error = json.value("unmet", "") != "warning";
   if (!json.contains("still")) {
     output.clips = read_clips(reading, json, pointer);

@@ -30,6 +30,9 @@ namespace {
 constexpr std::array kRepresentations = {"auto",   "laplacian", "rotation",
                                          "affine", "absolute",  "rigid"};
 
+/// In the order of TargetKind.
+constexpr std::array kTargetKinds = {"auto", "tracks", "keyframes", "basis", "frames"};
+
 }  // namespace
 
 std::string name_of(Representation representation) {
@@ -40,6 +43,14 @@ Representation representation_named(const std::string& name) {
   const auto found = std::find(kRepresentations.begin(), kRepresentations.end(), name);
   assert(found != kRepresentations.end());
   return static_cast<Representation>(found - kRepresentations.begin());
+}
+
+std::string name_of(TargetKind kind) { return kTargetKinds[static_cast<std::size_t>(kind)]; }
+
+TargetKind target_kind_named(const std::string& name) {
+  const auto found = std::find(kTargetKinds.begin(), kTargetKinds.end(), name);
+  assert(found != kTargetKinds.end());
+  return static_cast<TargetKind>(found - kTargetKinds.begin());
 }
 
 bool has_shares_an_axis(const Recipe& recipe) {

@@ -143,10 +143,15 @@ struct Gauge {
 };
 
 enum class TargetKind {
-  Auto,  ///< Tracks where fixed shapes make up the timeline, else Frames
-  Tracks,
-  Frames,
+  Auto,       ///< Tracks where fixed shapes make up the timeline, else the fewest targets
+  Tracks,     ///< one a track or key
+  Keyframes,  ///< as few frames as keep the bounds, each fading into the next
+  Basis,      ///< as few combined shapes as keep the bounds
+  Frames,     ///< one a frame
 };
+
+/// A basis is found among no more frames: its time grows with their third power.
+constexpr std::size_t kMostFramesOfBasis = 2000;
 
 /// One moment or state as a plain mesh without animation.
 struct Still {
@@ -166,12 +171,26 @@ struct Clip {
   double end = 0;    ///< seconds, > begin
 };
 
+/// What numbers of a mesh are in its file.
+enum class Encoding {
+  Float,      ///< 32-bit floats
+  Quantised,  ///< 16-bit integers (KHR_mesh_quantization)
+};
+
+enum class Compression {
+  None,
+  Meshopt,  ///< EXT_meshopt_compression
+};
+
 struct Output {
   std::filesystem::path file;  ///< absolute, .glb
   std::vector<Clip> clips;     ///< one at least, but for stills
   TargetKind targets = TargetKind::Auto;
   std::optional<Still> still;
+  double max_error = 0.001;  ///< of positions, as a fraction of the first frame's diagonal
   NormalBounds max_normal_error;
+  Encoding encoding = Encoding::Float;
+  Compression compression = Compression::None;
   bool unmet_is_error = true;  ///< whether a bound that is not kept stops the bake
 };
 
@@ -226,6 +245,12 @@ std::string name_of(Representation representation);
 
 /// @param name  one of those
 Representation representation_named(const std::string& name);
+
+/// As recipes write it: "auto", "tracks", "keyframes", "basis", "frames".
+std::string name_of(TargetKind kind);
+
+/// @param name  one of those
+TargetKind target_kind_named(const std::string& name);
 
 /// Whether any shares mix each axis by itself.
 bool has_shares_an_axis(const Recipe& recipe);

@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <cstring>
 #include <memory>
+#include <mutex>
 #include <utility>
 
 #include "morphbake/diagnostics/problem.h"
@@ -24,11 +25,12 @@ class FrameFile {
     if (std::fwrite(frame.data(), sizeof(double), count, file_.get()) != count) fail();
   }
 
-  Positions read(std::size_t frame) const {
-    Positions positions(vertex_count_, 3);
+  Positions read(const FramePart& part) const {
+    Positions positions(part.count, 3);
     const auto count = static_cast<std::size_t>(positions.size());
-    const auto offset = static_cast<off_t>(frame * count * sizeof(double));
-    if (::fseeko(file_.get(), offset, SEEK_SET) != 0) fail();
+    const auto row = static_cast<off_t>(part.frame) * vertex_count_ + part.first;
+    const std::lock_guard<std::mutex> lock(reading_);  // of the one place in the file
+    if (::fseeko(file_.get(), 3 * row * static_cast<off_t>(sizeof(double)), SEEK_SET) != 0) fail();
     if (std::fread(positions.data(), sizeof(double), count, file_.get()) != count) fail();
     return positions;
   }
@@ -43,6 +45,7 @@ class FrameFile {
   }
 
   Eigen::Index vertex_count_;
+  mutable std::mutex reading_;
   std::unique_ptr<std::FILE, int (*)(std::FILE*)> file_;
 };
 
@@ -51,8 +54,10 @@ class FrameFile {
 FrameSource combined_frames(const SolvedShapes& shapes, const SeparableTimeline& separable,
                             const Timeline& timeline) {
   const std::vector<double> times = frame_times(timeline);
-  return {times, [&shapes, &separable, &timeline, times](std::size_t frame) {
-            return combine_shapes(shapes, field_coefficients(timeline, separable, times[frame]));
+  std::vector<Eigen::VectorXd> phi;
+  for (const double time : times) phi.push_back(field_coefficients(timeline, separable, time));
+  return {times, shapes.base.rows(), [&shapes, phi = std::move(phi)](const FramePart& part) {
+            return combine_shapes(shapes, phi[part.frame], part.first, part.count);
           }};
 }
 
@@ -63,7 +68,8 @@ SolvedFrames solved_frames(const SurfaceSolver& solver, const Positions& referen
   std::vector<SolveRecord> records = solve_frames(
       solver, times, goals_at, observer,
       [&](int, const Positions& displacement) { file->append(reference + displacement); });
-  return {{times, [file](std::size_t frame) { return file->read(frame); }}, std::move(records)};
+  return {{times, reference.rows(), [file](const FramePart& part) { return file->read(part); }},
+          std::move(records)};
 }
 
 }  // namespace morphbake

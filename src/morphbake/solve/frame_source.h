@@ -7,11 +7,23 @@
 
 namespace morphbake {
 
-/// The frames of a timeline, pulled one by one as often as needed: whoever reads them holds what it
-/// needs, and memory does not grow with their number.
+/// Some vertices of a frame.
+struct FramePart {
+  std::size_t frame = 0;
+  Eigen::Index first = 0;  ///< vertex
+  Eigen::Index count = 0;  ///< vertices
+};
+
+/// The frames of a timeline, pulled part by part as often as needed: whoever reads them holds what
+/// it needs, and memory does not grow with their number.
 struct FrameSource {
-  std::vector<double> times;                              ///< seconds, rising
-  std::function<Positions(std::size_t frame)> positions;  ///< #V by 3, scene space
+  std::vector<double> times;  ///< seconds, rising
+  Eigen::Index vertex_count = 0;
+  /// count by 3, scene space. May be called from several threads at once.
+  std::function<Positions(const FramePart& part)> rows;
+
+  /// #V by 3, scene space.
+  Positions positions(std::size_t frame) const { return rows({frame, 0, vertex_count}); }
 };
 
 /// Frames combined from solved shapes, each time anew.

@@ -40,10 +40,15 @@ SolvedShapes solve_fields(const SurfaceSolver& solver, const MorphableMesh& mesh
 }
 
 Positions combine_shapes(const SolvedShapes& shapes, const Eigen::VectorXd& phi) {
-  Positions positions = shapes.base;
+  return combine_shapes(shapes, phi, 0, shapes.base.rows());
+}
+
+Positions combine_shapes(const SolvedShapes& shapes, const Eigen::VectorXd& phi, Eigen::Index first,
+                         Eigen::Index count) {
+  Positions positions = shapes.base.middleRows(first, count);
   for (std::size_t k = 0; k < shapes.displacements.size(); ++k) {
     const double share = phi(static_cast<Eigen::Index>(k) + 1);
-    if (share != 0) positions += share * shapes.displacements[k];
+    if (share != 0) positions += share * shapes.displacements[k].middleRows(first, count);
   }
   return positions;
 }

@@ -46,4 +46,8 @@ SolvedShapes solve_fields(const SurfaceSolver& solver, const MorphableMesh& mesh
 /// @param phi  as field_coefficients: the first is 1
 Positions combine_shapes(const SolvedShapes& shapes, const Eigen::VectorXd& phi);
 
+/// The same of `count` vertices from `first` on.
+Positions combine_shapes(const SolvedShapes& shapes, const Eigen::VectorXd& phi, Eigen::Index first,
+                         Eigen::Index count);
+
 }  // namespace morphbake

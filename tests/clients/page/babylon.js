@@ -1,5 +1,6 @@
 // Runs in the browser: Babylon.js' own loader, animation and drawing, evaluated where we can read numbers.
 /* global BABYLON */
+BABYLON.MeshoptCompression.Configuration = { decoder: { url: '/modules/meshoptimizer/meshopt_decoder.cjs' } };
 const engine = new BABYLON.Engine(document.getElementById('canvas'), false);
 
 /** The index that a pointer like /nodes/3 among a mesh's origins has, or undefined. */

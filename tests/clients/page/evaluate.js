@@ -1,6 +1,7 @@
 // Runs in the browser: three.js' own loader, mixer and morphing, evaluated where we can read numbers.
 import * as THREE from 'three';
 import { GLTFLoader } from 'three/addons/loaders/GLTFLoader.js';
+import { MeshoptDecoder } from 'three/addons/libs/meshopt_decoder.module.js';
 
 /** Each further scene of a file makes the parser forget what it knows of the others. */
 function keepAssociations(parser) {
@@ -12,7 +13,7 @@ function keepAssociations(parser) {
 
 /** Loads a file and readies one of its clips to be put to any time. */
 async function openGltf(url, clip = 0) {
-  const gltf = await new GLTFLoader().register(keepAssociations).loadAsync(url);
+  const gltf = await new GLTFLoader().setMeshoptDecoder(MeshoptDecoder).register(keepAssociations).loadAsync(url);
   const meshes = [];
   gltf.scene.traverse((object) => { if (object.isMesh) meshes.push(object); });
   const primitiveOf = (mesh) => gltf.parser.associations.get(mesh).primitives ?? 0;

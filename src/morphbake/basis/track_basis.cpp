@@ -137,21 +137,6 @@ void add_clip(MorphBasis& basis, const std::vector<WeightKey>& keys) {
   basis.clips.push_back(std::move(clip));
 }
 
-/// Weights of frames, of which each fades into the next: one a frame but the first.
-Eigen::VectorXd frame_weights(const std::vector<double>& times, double time) {
-  Eigen::VectorXd weights = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(times.size()) - 1);
-  const auto put = [&](std::size_t frame, double weight) {
-    if (frame > 0) weights(static_cast<Eigen::Index>(frame) - 1) = weight;
-  };
-  const auto next = static_cast<std::size_t>(
-      std::lower_bound(times.begin(), times.end() - 1, time) - times.begin());
-  if (next == 0) return weights;
-  const double share = std::min(1.0, (time - times[next - 1]) / (times[next] - times[next - 1]));
-  put(next - 1, 1 - share);
-  put(next, share);
-  return weights;
-}
-
 double largest_row(const Positions& rows) {
   return rows.rows() == 0 ? 0 : std::sqrt(rows.rowwise().squaredNorm().maxCoeff());
 }
@@ -172,28 +157,6 @@ MorphBasis track_basis(const SolvedShapes& shapes, const SeparableTimeline& sepa
   }
   WeightCurves curves(separable, timeline, std::move(tolerance));
   for (const Clip& clip : clips) add_clip(basis, curves.keys(clip));
-  return basis;
-}
-
-MorphBasis frame_basis(const FrameSource& frames, const std::vector<Clip>& clips) {
-  const std::vector<double>& times = frames.times;
-  MorphBasis basis;
-  basis.base = frames.positions(0);
-  for (std::size_t f = 1; f < times.size(); ++f) {
-    basis.targets.push_back({fmt::format("frame-{:04d}", f), frames.positions(f) - basis.base});
-  }
-  for (const Clip& clip : clips) {
-    std::vector<double> moments = times;
-    std::erase_if(moments, [&](double time) { return time <= clip.begin || time >= clip.end; });
-    moments.insert(moments.begin(), clip.begin);
-    moments.push_back(clip.end);
-    std::vector<WeightKey> keys;
-    for (const double time : moments) {
-      const auto at = static_cast<float>(time - clip.begin);
-      if (keys.empty() || at > keys.back().time) keys.push_back({at, frame_weights(times, time)});
-    }
-    add_clip(basis, keys);
-  }
   return basis;
 }
 
