@@ -8,11 +8,8 @@
 #include <memory>
 #include <utility>
 
-#include "morphbake/gltf/compress_meshopt.h"
-#include "morphbake/gltf/quantise_mesh.h"
-#include "morphbake/gltf/write_morph.h"
+#include "morphbake/bake/encode_output.h"
 #include "morphbake/mesh/measures.h"
-#include "morphbake/version.h"
 
 namespace morphbake {
 namespace {
@@ -257,43 +254,28 @@ struct WrittenOutput {
   std::size_t all_targets = 0;  ///< with those that the mesh had
 };
 
-/// The bytes of a morph in the encoding that is asked for.
-EncodedMorph encoded_morph(const SolvedRecipe& solved, const Output& output, MeshMorph morph) {
-  EncodedMorph encoded{
-      write_morph_glb(solved.first.file, morph, fmt::format("morphbake {}", version())),
-      morph.node};
-  morph = {};
-  if (output.encoding == Encoding::Quantised) {
-    const GltfFile file = open_gltf_bytes(std::move(encoded.glb), output.file);
-    encoded = quantise_mesh(file, encoded.node);
-  }
-  if (output.compression == Compression::Meshopt) {
-    encoded.glb = compress_meshopt(open_gltf_bytes(std::move(encoded.glb), output.file));
-  }
-  return encoded;
-}
-
 WrittenOutput write_output(const SolvedRecipe& solved, const Output& output,
                            MorphWithMotions made) {
   auto& [morph, timeline, motions, kind] = made;
   const auto added = static_cast<std::ptrdiff_t>(morph.target_names.size());
   const std::size_t clips = added > 0 ? morph.clips.size() : 0;
+  const double diagonal = bounding_diagonal(motions.front().positions_at(0));
   WrittenOutput result;
   OutputReport& report = result.report;
   for (const MorphClip& clip : morph.clips) {
     report.weight_keys += static_cast<int>(clip.key_times.size());
   }
-  auto [bytes, node] = encoded_morph(solved, output, std::move(morph));
-  result.bytes = std::move(bytes);  // what they say is measured
-  result.node = node;
-  WrittenMesh written = read_written_mesh(result.bytes, output.file, node, clips);
+  EncodedOutput encoded = encode_output(solved.first, output, diagonal, std::move(morph));
+  result.bytes = std::move(encoded.glb);  // what they say is measured
+  result.node = encoded.node;
+  WrittenMesh written = read_written_mesh(result.bytes, output.file, encoded.node, clips);
+  restore_order(encoded.old_vertex, written.mesh);
   const std::vector<std::string>& names = written.mesh.target_names;
   result.all_targets = names.size();
   // Without targets nothing moves, and one weight at rest stands for all clips.
   written.clips.resize(motions.size(), written.clips.front());
   const MorphError error = measure_clips(solved, written, motions);
 
-  const double diagonal = bounding_diagonal(motions.front().positions_at(0));
   report.file = output.file;
   report.kind = kind;
   report.bytes = result.bytes.size();
