@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <utility>
 
 #include "morphbake/gltf/compress_meshopt.h"
@@ -12,12 +13,27 @@
 namespace morphbake {
 namespace {
 
-/// Where bytes count, integers are as coarse as a tenth of the error that is allowed anyway.
-QuantisedSteps steps_of(const SourceMesh& first, const Output& output, double diagonal) {
-  if (output.compression == Compression::None) return {};
+/// Of the new targets, over all keys.
+std::vector<float> mean_weights(const MeshMorph& morph) {
+  std::vector<float> means(morph.target_names.size(), 0.0F);
+  float keys = 0;
+  for (const MorphClip& clip : morph.clips) {
+    keys += static_cast<float>(clip.key_weights.rows());
+    const Eigen::VectorXf sums = clip.key_weights.colwise().sum();
+    for (std::size_t k = 0; k < means.size(); ++k) means[k] += sums(static_cast<Eigen::Index>(k));
+  }
+  for (float& mean : means) mean /= std::max(1.0F, keys);
+  return means;
+}
+
+/// Where bytes count, integers are as coarse as a fifth of the error that is allowed anyway.
+QuantisedSteps steps_of(const SourceMesh& first, const Output& output, double diagonal,
+                        std::vector<float> means) {
+  if (output.compression == Compression::None) return {0, 16, std::move(means)};
   const Eigen::Matrix3d to_scene = first.geometry.to_scene.topLeftCorner<3, 3>();
   const double largest_scale = to_scene.colwise().norm().maxCoeff();
-  return {largest_scale > 0 ? 0.1 * output.max_error * diagonal / largest_scale : 0, 8};
+  return {largest_scale > 0 ? 0.2 * output.max_error * diagonal / largest_scale : 0, 8,
+          std::move(means)};
 }
 
 }  // namespace
@@ -26,6 +42,7 @@ EncodedOutput encode_output(const SourceMesh& first, const Output& output, doubl
                             MeshMorph morph) {
   EncodedOutput encoded{
       write_morph_glb(first.file, morph, fmt::format("morphbake {}", version())), morph.node, {}};
+  const std::vector<float> means = mean_weights(morph);
   morph = {};
   const auto take_file = [&] { return open_gltf_bytes(std::move(encoded.glb), output.file); };
   if (output.compression == Compression::Meshopt) {
@@ -35,7 +52,7 @@ EncodedOutput encode_output(const SourceMesh& first, const Output& output, doubl
   }
   if (output.encoding == Encoding::Quantised) {
     EncodedMorph quantised =
-        quantise_mesh(take_file(), encoded.node, steps_of(first, output, diagonal));
+        quantise_mesh(take_file(), encoded.node, steps_of(first, output, diagonal, means));
     encoded.glb = std::move(quantised.glb);
     encoded.node = quantised.node;
   }

@@ -219,7 +219,11 @@ MorphWithMotions make_animated_output(const SolvedRecipe& solved, const OutputIn
   }
   const MorphBasis basis = basis_of(of, timeline, inputs, tolerance);
   made.kind = name_of(basis.kind);
-  made.morph = make_mesh_morph(solved.first, solved.mesh, basis, solved.groups, made.motions);
+  // Integers cannot exceed 1. Where they do not have to be small, such targets may stay floats.
+  const bool is_small = inputs.output.encoding == Encoding::Quantised &&
+                        inputs.output.compression == Compression::Meshopt;
+  made.morph = make_mesh_morph(solved.first, solved.mesh, basis, solved.groups, made.motions,
+                               is_small ? TargetRange::Unit : TargetRange::Any);
   return made;
 }
 

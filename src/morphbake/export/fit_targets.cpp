@@ -4,6 +4,8 @@
 
 #include <Eigen/QR>
 #include <algorithm>
+#include <cmath>
+#include <utility>
 
 #include "morphbake/gltf/animated_mesh.h"
 
@@ -57,13 +59,9 @@ void apply(const Eigen::MatrixXd& matrix, VectorRows& rows) {
   });
 }
 
-}  // namespace
-
-FittedVectors fit_targets(const MorphBasis& basis, const Positions& rest,
-                          const std::vector<VectorMotion>& motions) {
+/// The fit that the moments lead to.
+FittedVectors solved(const MorphBasis& basis, const Positions& rest, Moments moments) {
   FittedVectors fitted{rest, {}};
-  if (basis.targets.empty()) return fitted;
-  Moments moments = moments_of(basis, rest, motions);
   // Targets that never move, or move together, leave the Gram matrix singular: least norm then.
   apply(moments.gram.completeOrthogonalDecomposition().pseudoInverse(), moments.sums);
   const auto rows_of = [&](Eigen::Index number) {
@@ -73,6 +71,95 @@ FittedVectors fit_targets(const MorphBasis& basis, const Positions& rest,
     fitted.targets.emplace_back(rows_of(static_cast<Eigen::Index>(k)));
   }
   if (basis.kind == TargetKind::Basis) fitted.rest += rows_of(moments.sums.rows() - 1);
+  return fitted;
+}
+
+/// The factor that makes a fitted rest a unit vector; 0 where it has no direction.
+double unit_scale(const Eigen::RowVector3d& fitted) {
+  constexpr double kShortest = 1e-6;
+  const double length = fitted.norm();
+  return length > kShortest ? 1 / length : 0;
+}
+
+/// min |A x - b|^2 within [-1, 1] by its normal equations, from a start: coordinate after
+/// coordinate.
+///
+/// @param gram  A^T A
+/// @param sums  A^T b
+void bound_to_unit(const Eigen::MatrixXd& gram, const Eigen::VectorXd& sums, Eigen::VectorXd& x) {
+  constexpr int kMostSweeps = 200;
+  constexpr double kSettled = 1e-6;
+  x = x.cwiseMax(-1).cwiseMin(1);
+  for (int sweep = 0; sweep < kMostSweeps; ++sweep) {
+    double moved = 0;
+    for (Eigen::Index k = 0; k < x.size(); ++k) {
+      if (!(gram(k, k) > 0)) continue;
+      const double step = (sums(k) - gram.row(k).dot(x)) / gram(k, k);
+      const double next = std::clamp(x(k) + step, -1.0, 1.0);
+      moved = std::max(moved, std::abs(next - x(k)));
+      x(k) = next;
+    }
+    if (moved <= kSettled) return;
+  }
+}
+
+/// Fits anew what leaves [-1, 1], under the scales that are found already.
+///
+/// @param first    rest before it was fitted
+/// @param scales   of the fitted ones
+/// @param moments  against `first`
+void bound_targets(const Normals& first, const Eigen::VectorXd& scales, const Moments& moments,
+                   FittedVectors& fitted) {
+  const auto count = static_cast<Eigen::Index>(fitted.targets.size());
+  const Eigen::MatrixXd gram = moments.gram.topLeftCorner(count, count);
+  const bool is_rest_fitted = moments.gram.rows() > count;
+  for (Eigen::Index r = 0; r < first.rows(); ++r) {
+    for (Eigen::Index axis = 0; axis < 3; ++axis) {
+      Eigen::VectorXd x(count), sums(count);
+      for (Eigen::Index k = 0; k < count; ++k) {
+        x(k) = fitted.targets[static_cast<std::size_t>(k)](r, axis);
+      }
+      if (x.cwiseAbs().maxCoeff() <= 1) continue;
+      sums = moments.sums.col(3 * r + axis).head(count);
+      if (is_rest_fitted) {
+        const auto weights = moments.gram.col(count).head(count);  // their sums
+        sums = scales(r) * (sums + first(r, axis) * weights) - fitted.rest(r, axis) * weights;
+      }
+      bound_to_unit(gram, sums, x);
+      for (Eigen::Index k = 0; k < count; ++k) {
+        fitted.targets[static_cast<std::size_t>(k)](r, axis) = x(k);
+      }
+    }
+  }
+}
+
+}  // namespace
+
+FittedVectors fit_targets(const MorphBasis& basis, const Positions& rest,
+                          const std::vector<VectorMotion>& motions) {
+  if (basis.targets.empty()) return {rest, {}};
+  return solved(basis, rest, moments_of(basis, rest, motions));
+}
+
+FittedVectors fit_directions(const MorphBasis& basis, const Normals& rest,
+                             const std::vector<VectorMotion>& motions, TargetRange range) {
+  if (basis.targets.empty()) return {rest, {}};
+  const Moments moments = moments_of(basis, rest, motions);
+  FittedVectors fitted = solved(basis, rest, moments);
+  Eigen::VectorXd scales = Eigen::VectorXd::Ones(rest.rows());
+  if (basis.kind == TargetKind::Basis) {
+    for (Eigen::Index r = 0; r < rest.rows(); ++r) {
+      scales(r) = unit_scale(fitted.rest.row(r));
+      if (scales(r) == 0) {  // the fit says nothing
+        scales(r) = 1;
+        fitted.rest.row(r) = rest.row(r);
+        continue;
+      }
+      fitted.rest.row(r) *= scales(r);
+      for (Positions& target : fitted.targets) target.row(r) *= scales(r);
+    }
+  }
+  if (range == TargetRange::Unit) bound_targets(rest, scales, moments, fitted);
   return fitted;
 }
 

@@ -29,4 +29,15 @@ struct VectorMotion {
 FittedVectors fit_targets(const MorphBasis& basis, const Positions& rest,
                           const std::vector<VectorMotion>& motions);
 
+/// What numbers of targets may be.
+enum class TargetRange {
+  Any,
+  Unit,  ///< within [-1, 1], as integers that stand for fractions are
+};
+
+/// The same of unit vectors, of whose morphs only the directions count: shaders norm them. So each
+/// may have its own scale with its targets, and its rest is a unit vector, as glTF wants it.
+FittedVectors fit_directions(const MorphBasis& basis, const Normals& rest,
+                             const std::vector<VectorMotion>& motions, TargetRange range);
+
 }  // namespace morphbake

@@ -5,8 +5,6 @@
 #include <optional>
 #include <utility>
 
-#include "morphbake/export/fit_targets.h"
-
 namespace morphbake {
 namespace {
 
@@ -19,25 +17,10 @@ Normals to_mesh_space(const Normals& scene_normals, const Eigen::Matrix3d& linea
   return (scene_normals * linear).rowwise().normalized();
 }
 
-/// Shaders norm what they morph: each normal may have its own scale with its targets, so that its
-/// rest is a unit normal, as glTF wants it.
-void scale_to_unit_rest(const Normals& surface, FittedVectors& normals) {
-  constexpr double kShortest = 1e-6;
-  for (Eigen::Index g = 0; g < surface.rows(); ++g) {
-    const double length = normals.rest.row(g).norm();
-    if (!(length > kShortest)) {  // the fit says nothing
-      normals.rest.row(g) = surface.row(g);
-      continue;
-    }
-    normals.rest.row(g) /= length;
-    for (Positions& target : normals.targets) target.row(g) /= length;
-  }
-}
-
 FittedVectors fit_normals(const MorphableMesh& mesh, const MorphBasis& basis,
                           const SmoothingGroups& groups,
                           const std::vector<ReferenceMotion>& motions,
-                          const Eigen::Matrix3d& linear) {
+                          const Eigen::Matrix3d& linear, TargetRange range) {
   const auto normals_of = [&](const Positions& positions) {
     return to_mesh_space(deformed_normals(groups, mesh, positions), linear);
   };
@@ -46,10 +29,7 @@ FittedVectors fit_normals(const MorphableMesh& mesh, const MorphBasis& basis,
     shown.push_back(
         {motion.frame_times, [&](double time) { return normals_of(motion.positions_at(time)); }});
   }
-  const Normals surface = normals_of(basis.base);
-  FittedVectors normals = fit_targets(basis, surface, shown);
-  if (basis.kind == TargetKind::Basis) scale_to_unit_rest(surface, normals);
-  return normals;
+  return fit_directions(basis, normals_of(basis.base), shown, range);
 }
 
 /// Colours that change with the shares; nothing where they do not.
@@ -168,12 +148,12 @@ ReferenceMotion motion_of(const ReferenceMotion& motion, const Clip& clip) {
 
 MeshMorph make_mesh_morph(const SourceMesh& first, const MorphableMesh& mesh,
                           const MorphBasis& basis, const SmoothingGroups& groups,
-                          const std::vector<ReferenceMotion>& motions) {
+                          const std::vector<ReferenceMotion>& motions, TargetRange normal_range) {
   MeshMorph morph = empty_morph(first);
   const Eigen::Matrix3d linear = linear_part(first);
   const Eigen::Matrix3d to_mesh = linear.inverse();
   FittedVectors normals;
-  if (groups.count > 0) normals = fit_normals(mesh, basis, groups, motions, linear);
+  if (groups.count > 0) normals = fit_normals(mesh, basis, groups, motions, linear, normal_range);
   const std::optional<FittedVectors> colours = fit_colours(basis, motions);
   add_rest(first, mesh, groups, basis.base, normals.rest, morph);
   if (colours) add_rest_colours(mesh, colours->rest, morph);

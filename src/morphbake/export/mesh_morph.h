@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "morphbake/basis/morph_basis.h"
+#include "morphbake/export/fit_targets.h"
 #include "morphbake/export/render_normals.h"
 #include "morphbake/gltf/write_morph.h"
 
@@ -40,10 +41,11 @@ ReferenceMotion motion_of(const ReferenceMotion& motion, const Clip& clip);
 ///
 /// Normal targets are the least-squares fit of the deformed normals over all frames to the weights:
 /// normals are not linear in them. Vertices that do not move keep the file's own bytes.
-/// @param motions  one a clip of the basis
+/// @param motions       one a clip of the basis
+/// @param normal_range  of normal targets
 MeshMorph make_mesh_morph(const SourceMesh& first, const MorphableMesh& mesh,
                           const MorphBasis& basis, const SmoothingGroups& groups,
-                          const std::vector<ReferenceMotion>& motions);
+                          const std::vector<ReferenceMotion>& motions, TargetRange normal_range);
 
 /// A plain mesh at `positions`, without targets.
 ///

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdint>
 #include <cstring>
+#include <functional>
 #include <map>
 #include <optional>
 #include <utility>
@@ -141,32 +142,65 @@ int append_sparse(GlbDraft& draft, const Integers& rows, int bytes,
   return append_accessor(draft, std::move(accessor));
 }
 
-/// Puts integers in the place of an attribute's floats; `fractions` makes them of rows, or nothing
-/// where they stay.
-template <typename Fractions>
-void quantise_attribute(Quantising& work, const char* attribute, int bytes,
-                        const Fractions& fractions) {
-  std::map<std::pair<int, bool>, int> made;
-  for_each_accessor(primitives_of(work), attribute, [&](Json& accessor, bool is_moved) {
-    const int old = accessor.get<int>();
-    const auto [entry, is_new] = made.try_emplace({old, is_moved}, -1);
-    if (is_new) {
-      const Float3s rows = rows_of(work, old);
-      const std::vector<std::uint32_t> moving = moving_rows(rows);
-      const bool is_zero = is_moved && moving.empty();  // and stays what it is
-      const std::optional<Float3s> fractioned = is_zero ? std::nullopt : fractions(rows, is_moved);
-      if (fractioned) {
-        const Integers integers = integers_of(*fractioned, bytes);
-        const bool is_sparse =
-            work.draft.accessors[static_cast<std::size_t>(old)].contains("sparse");
-        entry->second = is_moved && is_sparse ? append_sparse(work.draft, integers, bytes, moving)
-                                              : append_dense(work.draft, integers, bytes);
-      }
+/// An attribute on its way to integers.
+struct QuantisedAttribute {
+  const char* name = nullptr;
+  int bytes = 2;
+  /// Rows as fractions within [-1, 1], or nothing where they stay floats.
+  std::function<std::optional<Float3s>(const Float3s& rows, bool is_moved)> fractions;
+  std::map<std::pair<int, bool>, int> made;  ///< of an accessor, and of displacements: the new one
+};
+
+/// Puts integers in the place of an accessor's floats.
+///
+/// @param fractions  of its rows
+/// @return           what is left of them when they are rounded
+Float3s quantise_accessor(Quantising& work, QuantisedAttribute& attribute, Json& accessor,
+                          const Float3s& fractions, const std::vector<std::uint32_t>& moving,
+                          bool is_moved) {
+  const int old = accessor.get<int>();
+  const Integers integers = integers_of(fractions, attribute.bytes);
+  const auto [entry, is_new] = attribute.made.try_emplace({old, is_moved}, -1);
+  if (is_new) {
+    const bool is_sparse =
+        is_moved && work.draft.accessors[static_cast<std::size_t>(old)].contains("sparse");
+    entry->second = is_sparse ? append_sparse(work.draft, integers, attribute.bytes, moving)
+                              : append_dense(work.draft, integers, attribute.bytes);
+  }
+  release_accessor(work.draft, work.references, old, 1);
+  accessor = entry->second;
+  return fractions - integers.cast<float>() / static_cast<float>(largest_of(attribute.bytes));
+}
+
+/// The targets' first, so that the base can take what they lose on average.
+void quantise_primitive(Quantising& work, QuantisedAttribute& attribute, Json& primitive,
+                        const std::vector<float>& mean_weights) {
+  Json& attributes = primitive["attributes"];
+  if (!attributes.contains(attribute.name)) return;
+  Json& base = attributes[attribute.name];
+  const Float3s rest = rows_of(work, base.get<int>());
+  Float3s lost = Float3s::Zero(rest.rows(), 3);
+  const std::size_t targets = primitive.contains("targets") ? primitive["targets"].size() : 0;
+  for (std::size_t t = 0; t < targets; ++t) {
+    Json& target = primitive["targets"][t];
+    if (!target.contains(attribute.name)) continue;
+    const Float3s rows = rows_of(work, target[attribute.name].get<int>());
+    const std::vector<std::uint32_t> moving = moving_rows(rows);
+    if (moving.empty()) continue;  // zeros stay what they are
+    const std::optional<Float3s> fractions = attribute.fractions(rows, true);
+    if (!fractions) continue;
+    const Float3s left =
+        quantise_accessor(work, attribute, target[attribute.name], *fractions, moving, true);
+    const std::size_t from_end = targets - t;
+    if (from_end <= mean_weights.size()) {
+      lost += mean_weights[mean_weights.size() - from_end] * left;
     }
-    if (entry->second < 0) return;
-    release_accessor(work.draft, work.references, old, 1);
-    accessor = entry->second;
-  });
+  }
+  std::optional<Float3s> fractions = attribute.fractions(rest, false);
+  if (!fractions) return;
+  const bool is_own = work.references.accessors.at(base.get<std::size_t>()) == 1;
+  if (is_own) *fractions += lost;  // what others show too stays as it is
+  quantise_accessor(work, attribute, base, *fractions, {}, false);
 }
 
 /// Where nothing but the node's own transform places the mesh, a node below it may scale it.
@@ -238,17 +272,25 @@ EncodedMorph quantise_mesh(const GltfFile& file, int node, const QuantisedSteps&
   }
   Cube cube = cube_about(work);
   cube.half = std::max(cube.half, static_cast<float>(steps.position * largest_of(2)));
-  quantise_attribute(work, "POSITION", 2,
-                     [&](const Float3s& rows, bool is_moved) -> std::optional<Float3s> {
-                       if (is_moved) return Float3s(rows / cube.half);
-                       return Float3s((rows.rowwise() - cube.centre) / cube.half);
-                     });
-  quantise_attribute(work, "NORMAL", steps.normal_bits / 8,
-                     [](const Float3s& rows, bool) -> std::optional<Float3s> {
-                       constexpr float kRounding = 1e-6F;  // of unit normals
-                       if (!(rows.cwiseAbs().maxCoeff() <= 1 + kRounding)) return {};
-                       return rows;
-                     });
+  QuantisedAttribute positions{"POSITION",
+                               2,
+                               [&](const Float3s& rows, bool is_moved) -> std::optional<Float3s> {
+                                 if (is_moved) return Float3s(rows / cube.half);
+                                 return Float3s((rows.rowwise() - cube.centre) / cube.half);
+                               },
+                               {}};
+  QuantisedAttribute normals{"NORMAL",
+                             steps.normal_bits / 8,
+                             [](const Float3s& rows, bool) -> std::optional<Float3s> {
+                               constexpr float kRounding = 1e-6F;  // of unit normals
+                               if (!(rows.cwiseAbs().maxCoeff() <= 1 + kRounding)) return {};
+                               return rows;
+                             },
+                             {}};
+  for (Json& primitive : primitives_of(work)) {
+    quantise_primitive(work, positions, primitive, steps.mean_weights);
+    quantise_primitive(work, normals, primitive, steps.mean_weights);
+  }
   EncodedMorph encoded;
   for (const std::size_t n : users) {
     const std::size_t lowered = lower_mesh(work, n, cube);

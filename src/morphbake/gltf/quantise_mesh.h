@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "morphbake/gltf/gltf_file.h"
 
@@ -17,6 +18,8 @@ struct QuantisedSteps {
   double position =
       0;  ///< mesh space, where 16 bits are finer than that: few numbers compress well
   int normal_bits = 16;  ///< 16 or 8
+  /// Of the last targets: the base takes what they lose on average by rounding.
+  std::vector<float> mean_weights = {};
 };
 
 /// Positions and normals of a node's mesh, with their displacements, as integers
