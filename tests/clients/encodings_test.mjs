@@ -84,7 +84,7 @@ function checkIntegers(name, plain) {
     const values = readAccessor(plain, index);
     const largest = values.reduce((most, x) => Math.max(most, Math.abs(x)), 0);
     if (componentType === 5126) {
-      const isLarge = attribute === 'NORMAL' && largest > 1 && !name.endsWith('both');
+      const isLarge = attribute === 'NORMAL' && largest > 1;
       checks.check(isTarget && (largest === 0 || isLarge), `${name}: ${attribute} ${index} is float`);
       continue;
     }

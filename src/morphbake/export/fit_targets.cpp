@@ -103,6 +103,19 @@ void bound_to_unit(const Eigen::MatrixXd& gram, const Eigen::VectorXd& sums, Eig
   }
 }
 
+/// Whether few enough vectors have targets beyond [-1, 1] that bounding those costs little.
+bool exceed_rarely(const std::vector<Positions>& targets) {
+  constexpr double kFew = 0.01;
+  const Eigen::Index count = targets.front().rows();
+  Eigen::Index exceeding = 0;
+  for (Eigen::Index r = 0; r < count; ++r) {
+    exceeding += std::any_of(targets.begin(), targets.end(), [r](const Positions& target) {
+      return target.row(r).cwiseAbs().maxCoeff() > 1;
+    });
+  }
+  return static_cast<double>(exceeding) <= kFew * static_cast<double>(count);
+}
+
 /// Fits anew what leaves [-1, 1], under the scales that are found already.
 ///
 /// @param first    rest before it was fitted
@@ -159,7 +172,9 @@ FittedVectors fit_directions(const MorphBasis& basis, const Normals& rest,
       for (Positions& target : fitted.targets) target.row(r) *= scales(r);
     }
   }
-  if (range == TargetRange::Unit) bound_targets(rest, scales, moments, fitted);
+  if (range == TargetRange::Unit && exceed_rarely(fitted.targets)) {
+    bound_targets(rest, scales, moments, fitted);
+  }
   return fitted;
 }
 

@@ -32,7 +32,7 @@ FittedVectors fit_targets(const MorphBasis& basis, const Positions& rest,
 /// What numbers of targets may be.
 enum class TargetRange {
   Any,
-  Unit,  ///< within [-1, 1], as integers that stand for fractions are
+  Unit,  ///< within [-1, 1], as integers that stand for fractions, where that changes few of them
 };
 
 /// The same of unit vectors, of whose morphs only the directions count: shaders norm them. So each
