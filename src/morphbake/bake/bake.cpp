@@ -70,7 +70,7 @@ BakeReport bake(const Recipe& asked, const BakeOptions& options, const Observer&
       solve_timeline(recipe, mesh, regions, options.solve, observer);
   clock.start("export");
   const SmoothingGroups groups = find_smoothing_groups(sources.front(), mesh);
-  const ShapeColours colours = shape_colours(recipe, sources, mesh);
+  const ShapeColours colours = shape_colours(recipe, sources);
   PendingOutputs outputs;
   const SolvedRecipe solved{recipe, sources.front(), mesh, regions, *timeline, groups, colours};
   std::vector<StagedOutput> staged;

@@ -28,11 +28,12 @@ Positions still_positions(const SolvedRecipe& solved, const Still& still,
                      options);
 }
 
-/// #V by 3, or no rows where colours do not change.
+/// At the vertices of the first source's file, or no rows where colours do not change.
 Positions colours_at(const SolvedRecipe& solved, double time) {
   if (solved.colours.empty()) return {};
-  return mixed_colours(solved.colours, transition_at(solved.recipe, solved.regions,
-                                                     solved.mesh.connectivity.vertex_count, time));
+  return mixed_colours(
+      solved.colours, solved.mesh,
+      transition_at(solved.recipe, solved.regions, solved.mesh.connectivity.vertex_count, time));
 }
 
 Positions still_colours(const SolvedRecipe& solved, const Still& still) {
@@ -40,8 +41,9 @@ Positions still_colours(const SolvedRecipe& solved, const Still& still) {
   if (solved.colours.empty()) return {};
   const Recipe& recipe = solved.recipe;
   const State& state = recipe.states[static_cast<std::size_t>(std::get<int>(still.at))];
-  return mixed_colours(solved.colours, state_transition(state, solved.regions,
-                                                        solved.mesh.connectivity.vertex_count));
+  return mixed_colours(
+      solved.colours, solved.mesh,
+      state_transition(state, solved.regions, solved.mesh.connectivity.vertex_count));
 }
 
 void warn_of_no_targets(const Recipe& recipe, std::size_t index, const Observer& observer) {

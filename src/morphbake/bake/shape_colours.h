@@ -9,18 +9,17 @@
 
 namespace morphbake {
 
-/// Colours of shapes with one connectivity: one a shape, #V by 3 linear RGB; none where all look
-/// alike.
+/// Colours of shapes: one a shape, #R by 3 linear RGB at the vertices of the first source's file;
+/// none where all look alike, or where files cannot be compared.
 using ShapeColours = std::vector<Positions>;
 
-/// What COLOR_0 of the sources' new files says. Shapes that are made from others have the colours
-/// of the source from which they come.
-///
-/// @param sources  with one order of vertices and one factor of their materials
-ShapeColours shape_colours(const Recipe& recipe, const std::vector<SourceMesh>& sources,
-                           const MorphableMesh& mesh);
+/// What COLOR_0 of the sources' files says, as new connectivities have it: opaque, on all
+/// primitives, with one order of vertices and the same factors of materials. Shapes that are made
+/// from others have the colours of the source from which they come.
+ShapeColours shape_colours(const Recipe& recipe, const std::vector<SourceMesh>& sources);
 
-/// sum_s T_s C_s within [0, 1], where axes mix by themselves of their mean share: #V by 3.
-Positions mixed_colours(const ShapeColours& colours, const TransitionState& T);
+/// sum_s T_s C_s within [0, 1], where axes mix by themselves of their mean share: #R by 3.
+Positions mixed_colours(const ShapeColours& colours, const MorphableMesh& mesh,
+                        const TransitionState& T);
 
 }  // namespace morphbake

@@ -96,11 +96,12 @@ void add_rest(const SourceMesh& first, const MorphableMesh& mesh, const Smoothin
   }
 }
 
-void add_rest_colours(const MorphableMesh& mesh, const Positions& colours, MeshMorph& morph) {
+/// @param colours  #R by 3
+void add_rest_colours(const Positions& colours, MeshMorph& morph) {
   Eigen::Index begin = 0;
   for (PrimitiveMorph& primitive : morph.primitives) {
     const Eigen::Index count = primitive.positions.rows();
-    primitive.colours = spread(colours, mesh.vertex_of_render, begin, count);
+    primitive.colours = colours.middleRows(begin, count).cast<float>();
     begin += count;
   }
 }
@@ -156,7 +157,7 @@ MeshMorph make_mesh_morph(const SourceMesh& first, const MorphableMesh& mesh,
   if (groups.count > 0) normals = fit_normals(mesh, basis, groups, motions, linear, normal_range);
   const std::optional<FittedVectors> colours = fit_colours(basis, motions);
   add_rest(first, mesh, groups, basis.base, normals.rest, morph);
-  if (colours) add_rest_colours(mesh, colours->rest, morph);
+  if (colours) add_rest_colours(colours->rest, morph);
   for (std::size_t k = 0; k < basis.targets.size(); ++k) {
     morph.target_names.push_back(basis.targets[k].name);
     const Positions displacement = basis.targets[k].displacement * to_mesh.transpose();
@@ -170,8 +171,8 @@ MeshMorph make_mesh_morph(const SourceMesh& first, const MorphableMesh& mesh,
             spread(normals.targets[k], groups.of_render, begin, count));
       }
       if (colours) {
-        primitive.target_colours.push_back(
-            spread(colours->targets[k], mesh.vertex_of_render, begin, count));
+        primitive.target_colours.emplace_back(
+            colours->targets[k].middleRows(begin, count).cast<float>());
       }
       begin += count;
     }
@@ -191,7 +192,7 @@ MeshMorph make_still(const SourceMesh& first, const MorphableMesh& mesh,
     normals = to_mesh_space(deformed_normals(groups, mesh, positions), linear_part(first));
   }
   add_rest(first, mesh, groups, positions, normals, morph);
-  if (colours.rows() > 0) add_rest_colours(mesh, colours, morph);
+  if (colours.rows() > 0) add_rest_colours(colours, morph);
   return morph;
 }
 

@@ -15,7 +15,8 @@ namespace morphbake {
 struct ReferenceMotion {
   std::vector<double> frame_times;                     ///< seconds, rising
   std::function<Positions(double time)> positions_at;  ///< #V by 3, scene space
-  /// #V by 3, linear RGB; nothing where colours do not change.
+  /// #R by 3 at the vertices of the first source's file, linear RGB; nothing where colours do not
+  /// change.
   std::function<Positions(double time)> colours_at = {};
   Positions first_colours = {};  ///< at the first frame of the timeline
   std::string name = {};         ///< of the clip that it is
@@ -49,7 +50,8 @@ MeshMorph make_mesh_morph(const SourceMesh& first, const MorphableMesh& mesh,
 
 /// A plain mesh at `positions`, without targets.
 ///
-/// @param colours  #V by 3, linear RGB, or no rows where the file's stand
+/// @param colours  #R by 3 at the vertices of the first source's file, linear RGB, or no rows where
+/// the file's stand
 MeshMorph make_still(const SourceMesh& first, const MorphableMesh& mesh,
                      const SmoothingGroups& groups, const Positions& positions,
                      const Positions& colours);
