@@ -5,6 +5,8 @@
 #include <optional>
 #include <utility>
 
+#include "morphbake/export/render_tangents.h"
+
 namespace morphbake {
 namespace {
 
@@ -32,9 +34,24 @@ FittedVectors fit_normals(const MorphableMesh& mesh, const MorphBasis& basis,
   return fit_directions(basis, normals_of(basis.base), shown, range);
 }
 
-/// Colours that change with the shares; nothing where they do not.
-///
-/// @param rest  at the base, where that is a frame
+/// Nothing where no normal map needs them.
+std::optional<FittedVectors> fit_tangents(const SourceMesh& first, const MorphableMesh& mesh,
+                                          const MorphBasis& basis, const SmoothingGroups& groups,
+                                          const RenderTangents& tangents,
+                                          const std::vector<ReferenceMotion>& motions) {
+  if (tangents.in_file.rows() == 0) return {};
+  const auto tangents_of = [&](const Positions& positions) {
+    return deformed_tangents(tangents, first, groups, mesh, positions);
+  };
+  std::vector<VectorMotion> shown;
+  for (const ReferenceMotion& motion : motions) {
+    shown.push_back(
+        {motion.frame_times, [&](double time) { return tangents_of(motion.positions_at(time)); }});
+  }
+  return fit_directions(basis, tangents_of(basis.base), shown, TargetRange::Any);
+}
+
+/// Nothing where colours do not change.
 std::optional<FittedVectors> fit_colours(const MorphBasis& basis,
                                          const std::vector<ReferenceMotion>& motions) {
   if (!motions.front().colours_at) return {};
@@ -91,6 +108,21 @@ void add_rest(const SourceMesh& first, const MorphableMesh& mesh, const Smoothin
           (source.positions.row(r).cast<double>() + moved.row(vertex)).cast<float>();
       if (groups.count > 0)
         primitive.normals.row(r) = normals.row(groups.of_render[render]).cast<float>();
+    }
+    begin += count;
+  }
+}
+
+/// @param directions  #R by 3, mesh space
+void add_rest_tangents(const RenderTangents& tangents, const Positions& directions,
+                       MeshMorph& morph) {
+  Eigen::Index begin = 0;
+  for (std::size_t p = 0; p < morph.primitives.size(); ++p) {
+    PrimitiveMorph& primitive = morph.primitives[p];
+    const Eigen::Index count = primitive.positions.rows();
+    if (tangents.is_given[p]) {
+      primitive.tangents = tangents.in_file.middleRows(begin, count);
+      primitive.tangents.leftCols<3>() = directions.middleRows(begin, count).cast<float>();
     }
     begin += count;
   }
@@ -155,20 +187,29 @@ MeshMorph make_mesh_morph(const SourceMesh& first, const MorphableMesh& mesh,
   const Eigen::Matrix3d to_mesh = linear.inverse();
   FittedVectors normals;
   if (groups.count > 0) normals = fit_normals(mesh, basis, groups, motions, linear, normal_range);
+  const RenderTangents tangents = find_tangents(first, mesh, groups);
+  const std::optional<FittedVectors> directions =
+      fit_tangents(first, mesh, basis, groups, tangents, motions);
   const std::optional<FittedVectors> colours = fit_colours(basis, motions);
   add_rest(first, mesh, groups, basis.base, normals.rest, morph);
+  if (directions) add_rest_tangents(tangents, directions->rest, morph);
   if (colours) add_rest_colours(colours->rest, morph);
   for (std::size_t k = 0; k < basis.targets.size(); ++k) {
     morph.target_names.push_back(basis.targets[k].name);
     const Positions displacement = basis.targets[k].displacement * to_mesh.transpose();
     Eigen::Index begin = 0;
-    for (PrimitiveMorph& primitive : morph.primitives) {
+    for (std::size_t p = 0; p < morph.primitives.size(); ++p) {
+      PrimitiveMorph& primitive = morph.primitives[p];
       const Eigen::Index count = primitive.positions.rows();
       primitive.target_positions.push_back(
           spread(displacement, mesh.vertex_of_render, begin, count));
       if (groups.count > 0) {
         primitive.target_normals.push_back(
             spread(normals.targets[k], groups.of_render, begin, count));
+      }
+      if (directions && tangents.is_given[p]) {
+        primitive.target_tangents.emplace_back(
+            directions->targets[k].middleRows(begin, count).cast<float>());
       }
       if (colours) {
         primitive.target_colours.emplace_back(
@@ -192,6 +233,10 @@ MeshMorph make_still(const SourceMesh& first, const MorphableMesh& mesh,
     normals = to_mesh_space(deformed_normals(groups, mesh, positions), linear_part(first));
   }
   add_rest(first, mesh, groups, positions, normals, morph);
+  const RenderTangents tangents = find_tangents(first, mesh, groups);
+  if (tangents.in_file.rows() > 0) {
+    add_rest_tangents(tangents, deformed_tangents(tangents, first, groups, mesh, positions), morph);
+  }
   if (colours.rows() > 0) add_rest_colours(colours, morph);
   return morph;
 }

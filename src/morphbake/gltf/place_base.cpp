@@ -12,10 +12,12 @@
 namespace morphbake {
 namespace {
 
+using FloatRows = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
 /// One attribute of the mesh's primitives: new rows for their accessors.
 struct NewAttribute {
   std::string name;
-  std::vector<Float3s> rows;  ///< one a primitive; none: stays
+  std::vector<FloatRows> rows;  ///< one a primitive; none: stays
 };
 
 bool is_used(const PrimitiveMorph& primitive, Eigen::Index row) {
@@ -30,11 +32,12 @@ struct Sharing {
 
 /// Rows that are right for all of the primitives: each vertex is where the primitive that uses it
 /// has it. None when two of them have one vertex at different places, by targets of their own.
-Float3s common_rows(const MeshMorph& morph, const NewAttribute& attribute, const Sharing& sharing) {
-  Float3s common = attribute.rows[sharing.primitives.front()];
+FloatRows common_rows(const MeshMorph& morph, const NewAttribute& attribute,
+                      const Sharing& sharing) {
+  FloatRows common = attribute.rows[sharing.primitives.front()];
   std::vector<bool> is_set(static_cast<std::size_t>(common.rows()), false);
   for (const std::size_t p : sharing.primitives) {
-    const Float3s& rows = attribute.rows[p];
+    const FloatRows& rows = attribute.rows[p];
     for (Eigen::Index r = 0; r < common.rows(); ++r) {
       const auto at = static_cast<std::size_t>(r);
       if (!is_used(morph.primitives[p], r)) continue;
@@ -48,11 +51,11 @@ Float3s common_rows(const MeshMorph& morph, const NewAttribute& attribute, const
 
 /// Gives primitives that share an accessor these rows.
 void put_rows(MorphWriting& writing, const std::string& name, const Sharing& sharing,
-              const Float3s& rows) {
-  const int written =
-      replace_accessor(writing.draft, writing.references,
-                       {sharing.accessor, static_cast<int>(sharing.primitives.size())},
-                       {rows.data(), static_cast<std::size_t>(rows.rows()), 3});
+              const FloatRows& rows) {
+  const int written = replace_accessor(
+      writing.draft, writing.references,
+      {sharing.accessor, static_cast<int>(sharing.primitives.size())},
+      {rows.data(), static_cast<std::size_t>(rows.rows()), static_cast<int>(rows.cols())});
   Json& primitives = mesh_of(writing)["primitives"];
   for (const std::size_t p : sharing.primitives) primitives[p]["attributes"][name] = written;
 }
@@ -67,7 +70,7 @@ void replace_attribute(MorphWriting& writing, const NewAttribute& attribute) {
     }
   }
   for (const auto& [accessor, sharing] : users) {
-    const Float3s common = common_rows(writing.morph, attribute, {accessor, sharing});
+    const FloatRows common = common_rows(writing.morph, attribute, {accessor, sharing});
     if (common.rows() > 0) {
       put_rows(writing, attribute.name, {accessor, sharing}, common);
       continue;
@@ -84,11 +87,12 @@ void place_base(MorphWriting& writing) {
   const MeshMorph& morph = writing.morph;
   const tinygltf::Mesh& mesh = writing.document.model.meshes[static_cast<std::size_t>(morph.mesh)];
   const Eigen::VectorXd rest = own_weights(writing);
-  NewAttribute positions{"POSITION", {}}, normals{"NORMAL", {}};
+  NewAttribute positions{"POSITION", {}}, normals{"NORMAL", {}}, tangents{"TANGENT", {}};
   for (std::size_t p = 0; p < morph.primitives.size(); ++p) {
     const PrimitiveMorph& primitive = morph.primitives[p];
     positions.rows.push_back(primitive.positions);
     normals.rows.push_back(primitive.normals);
+    tangents.rows.push_back(primitive.tangents);
     for (std::size_t t = 0; t < writing.own_targets; ++t) {
       const auto weight = static_cast<float>(rest(static_cast<Eigen::Index>(t)));
       if (weight == 0) continue;
@@ -103,6 +107,7 @@ void place_base(MorphWriting& writing) {
   }
   replace_attribute(writing, positions);
   replace_attribute(writing, normals);
+  replace_attribute(writing, tangents);
 }
 
 void place_colours(MorphWriting& writing) {

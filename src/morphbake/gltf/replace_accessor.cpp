@@ -1,5 +1,7 @@
 #include "morphbake/gltf/replace_accessor.h"
 
+#include <fmt/core.h>
+
 #include <utility>
 
 namespace morphbake {
@@ -13,10 +15,11 @@ int replace_accessor(GlbDraft& draft, References& references, const Replaced& ol
   const int view = replace_view(draft, references, released.view,
                                 append_bytes(draft, numbers.data, bytes, numbers.use));
   const Json& source = draft.accessors[index];
-  Json accessor = {{"bufferView", view},
-                   {"componentType", kFloatComponent},
-                   {"count", numbers.count},
-                   {"type", numbers.columns == 1 ? "SCALAR" : "VEC3"}};
+  Json accessor = {
+      {"bufferView", view},
+      {"componentType", kFloatComponent},
+      {"count", numbers.count},
+      {"type", numbers.columns == 1 ? "SCALAR" : fmt::format("VEC{}", numbers.columns)}};
   if (source.contains("min")) {
     using Rows = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
     const Eigen::Map<const Rows> rows(numbers.data, static_cast<Eigen::Index>(numbers.count),

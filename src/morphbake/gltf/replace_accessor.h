@@ -18,7 +18,7 @@ struct Replaced {
 struct NewNumbers {
   const float* data = nullptr;
   std::size_t count = 0;  ///< elements
-  int columns = 1;        ///< 1 or 3
+  int columns = 1;        ///< 1, 3 or 4
   BufferUse use = BufferUse::Vertices;
 };
 

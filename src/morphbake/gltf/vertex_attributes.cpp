@@ -66,6 +66,17 @@ std::vector<int> primitive_materials(const GltfFile& file, int mesh) {
   return materials;
 }
 
+std::vector<bool> normal_mapped_primitives(const GltfFile& file, int mesh) {
+  const auto& materials = file->model.materials;
+  std::vector<bool> are_mapped;
+  for (const int material : primitive_materials(file, mesh)) {
+    const auto at = static_cast<std::size_t>(material);
+    const bool is_known = material >= 0 && at < materials.size();
+    are_mapped.push_back(is_known && materials[at].normalTexture.index >= 0);
+  }
+  return are_mapped;
+}
+
 std::vector<std::string> material_names(const GltfFile& file) {
   std::vector<std::string> names;
   for (const auto& material : file->model.materials) names.push_back(material.name);

@@ -27,6 +27,9 @@ VertexAttribute read_vertex_attribute(const GltfFile& file, int mesh, const std:
 /// The material of each primitive, -1 for none.
 std::vector<int> primitive_materials(const GltfFile& file, int mesh);
 
+/// Whether each primitive's material has a normal map.
+std::vector<bool> normal_mapped_primitives(const GltfFile& file, int mesh);
+
 /// Index of a material by name or index, or -1; its name is not looked for twice.
 int find_material(const GltfFile& file, const NameOrIndex& choice);
 
