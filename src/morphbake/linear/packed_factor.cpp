@@ -7,18 +7,24 @@ namespace {
 
 constexpr int kTile = 4;  // rows
 constexpr int kTriangle = kTile * kTile;
-constexpr int kBlockVectors = 3;                 // a row: twelve of sixteen registers hold a tile
-constexpr int kMostVectors = 2 * kBlockVectors;  // a row: the factor is read once for both halves
-constexpr int kVectorBytes = 32;
+constexpr int kLeastBytes = 32;   // of a vector
+constexpr int kWidestPanel = 6;   // such vectors a row
+constexpr int kBlockVectors = 3;  // a row: twelve of sixteen registers hold a tile
 
 template <class Scalar>
-constexpr int kLanes = kVectorBytes / static_cast<int>(sizeof(Scalar));
+constexpr int kLeastLanes = kLeastBytes / static_cast<int>(sizeof(Scalar));
 
-/// One row of a panel of N vectors.
-template <class Scalar, int N>
-struct alignas(kVectorBytes) Row {
-  typedef Scalar Vector __attribute__((vector_size(kVectorBytes)));  // "using" knows no such type
-  Vector vectors[N];
+/// One row of a panel of columns.
+template <class Scalar, int Columns>
+struct alignas(Columns * sizeof(Scalar) % 64 == 0 ? 64 : kLeastBytes) Row {
+  Scalar columns[Columns];
+};
+
+/// Some columns of a row, which one instruction takes.
+template <class S, int Bytes>
+struct VectorOf {
+  using Scalar = S;
+  typedef S Type __attribute__((vector_size(Bytes), may_alias));  // "using" knows no such type
 };
 
 /// What a substitution reads.
@@ -30,71 +36,73 @@ struct Packed {
 };
 
 // Everything below is inlined into functions for one kind of machine each. No multiplication is
-// fused with an addition, so that all give the same bytes.
+// fused with an addition, so that all give the same bytes. A panel y has N vectors a row.
 #define MORPHBAKE_INLINE [[gnu::always_inline]] inline
 
-/// to[rows] -= L from[0 .. columns)
-template <class Scalar, int N>
-MORPHBAKE_INLINE void subtract_from_rows(const Scalar* L, int columns, const Row<Scalar, N>* from,
-                                         const int* rows, Row<Scalar, N>* y) {
+/// y[rows] -= L from[0 .. columns)
+template <class Vector, int N>
+MORPHBAKE_INLINE void subtract_from_rows(const typename Vector::Scalar* L, int columns,
+                                         const typename Vector::Type* from, const int* rows,
+                                         typename Vector::Type* y) {
   constexpr int kBlock = N < kBlockVectors ? N : kBlockVectors;
   for (int first = 0; first < N; first += kBlock) {
-    typename Row<Scalar, N>::Vector sums[kTile][kBlock];
+    typename Vector::Type sums[kTile][kBlock];
     for (int i = 0; i < kTile; ++i) {
-      for (int n = 0; n < kBlock; ++n) sums[i][n] = y[rows[i]].vectors[first + n];
+      for (int n = 0; n < kBlock; ++n) sums[i][n] = y[N * rows[i] + first + n];
     }
     for (int k = 0; k < columns; ++k) {
       for (int i = 0; i < kTile; ++i) {
-        for (int n = 0; n < kBlock; ++n)
-          sums[i][n] -= L[kTile * k + i] * from[k].vectors[first + n];
+        for (int n = 0; n < kBlock; ++n) sums[i][n] -= L[kTile * k + i] * from[N * k + first + n];
       }
     }
     for (int i = 0; i < kTile; ++i) {
-      for (int n = 0; n < kBlock; ++n) y[rows[i]].vectors[first + n] = sums[i][n];
+      for (int n = 0; n < kBlock; ++n) y[N * rows[i] + first + n] = sums[i][n];
     }
   }
 }
 
 /// to[0 .. columns) -= L^T y[rows]
-template <class Scalar, int N>
-MORPHBAKE_INLINE void subtract_from_columns(const Scalar* L, int columns, const int* rows,
-                                            const Row<Scalar, N>* y, Row<Scalar, N>* to) {
+template <class Vector, int N>
+MORPHBAKE_INLINE void subtract_from_columns(const typename Vector::Scalar* L, int columns,
+                                            const int* rows, const typename Vector::Type* y,
+                                            typename Vector::Type* to) {
   constexpr int kBlock = N < kBlockVectors ? N : kBlockVectors;
   for (int first = 0; first < N; first += kBlock) {
-    typename Row<Scalar, N>::Vector below[kTile][kBlock];
+    typename Vector::Type below[kTile][kBlock];
     for (int i = 0; i < kTile; ++i) {
-      for (int n = 0; n < kBlock; ++n) below[i][n] = y[rows[i]].vectors[first + n];
+      for (int n = 0; n < kBlock; ++n) below[i][n] = y[N * rows[i] + first + n];
     }
     for (int k = 0; k < columns; ++k) {
       for (int n = 0; n < kBlock; ++n) {
-        auto sum = to[k].vectors[first + n];
+        auto sum = to[N * k + first + n];
         for (int i = 0; i < kTile; ++i) sum -= L[kTile * k + i] * below[i][n];
-        to[k].vectors[first + n] = sum;
+        to[N * k + first + n] = sum;
       }
     }
   }
 }
 
 /// The triangle's tile on the diagonal, which holds the inverse of each diagonal entry.
-template <class Scalar, int N>
-MORPHBAKE_INLINE void solve_triangle(const Scalar* D, const int* rows, Row<Scalar, N>* y) {
+template <class Vector, int N>
+MORPHBAKE_INLINE void solve_triangle(const typename Vector::Scalar* D, const int* rows,
+                                     typename Vector::Type* y) {
   for (int i = 0; i < kTile; ++i) {
     for (int n = 0; n < N; ++n) {
-      auto sum = y[rows[i]].vectors[n];
-      for (int j = 0; j < i; ++j) sum -= D[kTile * i + j] * y[rows[j]].vectors[n];
-      y[rows[i]].vectors[n] = sum * D[(kTile + 1) * i];
+      auto sum = y[N * rows[i] + n];
+      for (int j = 0; j < i; ++j) sum -= D[kTile * i + j] * y[N * rows[j] + n];
+      y[N * rows[i] + n] = sum * D[(kTile + 1) * i];
     }
   }
 }
 
-template <class Scalar, int N>
-MORPHBAKE_INLINE void solve_transposed_triangle(const Scalar* D, const int* rows,
-                                                Row<Scalar, N>* y) {
+template <class Vector, int N>
+MORPHBAKE_INLINE void solve_transposed_triangle(const typename Vector::Scalar* D, const int* rows,
+                                                typename Vector::Type* y) {
   for (int i = kTile; i-- > 0;) {
     for (int n = 0; n < N; ++n) {
-      auto sum = y[rows[i]].vectors[n];
-      for (int j = i + 1; j < kTile; ++j) sum -= D[kTile * j + i] * y[rows[j]].vectors[n];
-      y[rows[i]].vectors[n] = sum * D[(kTile + 1) * i];
+      auto sum = y[N * rows[i] + n];
+      for (int j = i + 1; j < kTile; ++j) sum -= D[kTile * j + i] * y[N * rows[j] + n];
+      y[N * rows[i] + n] = sum * D[(kTile + 1) * i];
     }
   }
 }
@@ -104,64 +112,79 @@ constexpr std::size_t values_before(std::size_t tile) {
   return static_cast<std::size_t>(kTriangle) * (tile * (tile + 1) / 2);
 }
 
-template <class Scalar, int N>
-MORPHBAKE_INLINE void forward(const Packed<Scalar>& packed, Row<Scalar, N>* y) {
+template <class Vector, int N>
+MORPHBAKE_INLINE void forward(const Packed<typename Vector::Scalar>& packed,
+                              typename Vector::Type* y) {
   for (const PackedSupernode& node : packed.supernodes) {
-    const Scalar* values = packed.values + node.first_value;
+    const auto* values = packed.values + node.first_value;
     const int* rows = packed.rows + kTile * node.first_tile;
     for (int tile = 0; tile < node.tiles; ++tile, rows += kTile) {
       const int columns = kTile * std::min(tile, node.triangle_tiles);
-      subtract_from_rows<Scalar, N>(values, columns, y + node.first_column, rows, y);
+      subtract_from_rows<Vector, N>(values, columns, y + N * node.first_column, rows, y);
       values += kTile * columns;
       if (tile >= node.triangle_tiles) continue;
-      solve_triangle<Scalar, N>(values, rows, y);
+      solve_triangle<Vector, N>(values, rows, y);
       values += kTriangle;
     }
   }
 }
 
-template <class Scalar, int N>
-MORPHBAKE_INLINE void backward(const Packed<Scalar>& packed, Row<Scalar, N>* y) {
+template <class Vector, int N>
+MORPHBAKE_INLINE void backward(const Packed<typename Vector::Scalar>& packed,
+                               typename Vector::Type* y) {
   for (auto node = packed.supernodes.rbegin(); node != packed.supernodes.rend(); ++node) {
     const int* rows = packed.rows + kTile * node->first_tile;
     const int all = kTile * node->triangle_tiles;
-    const Scalar* triangle = packed.values + node->first_value;
-    const Scalar* values = triangle + values_before(static_cast<std::size_t>(node->triangle_tiles));
-    Row<Scalar, N>* own = y + node->first_column;
+    const auto* triangle = packed.values + node->first_value;
+    const auto* values = triangle + values_before(static_cast<std::size_t>(node->triangle_tiles));
+    auto* own = y + N * node->first_column;
     for (int tile = node->triangle_tiles; tile < node->tiles; ++tile, values += kTile * all) {
-      subtract_from_columns<Scalar, N>(values, all, rows + kTile * tile, y, own);
+      subtract_from_columns<Vector, N>(values, all, rows + kTile * tile, y, own);
     }
     for (int tile = node->triangle_tiles; tile-- > 0;) {
       values = triangle + values_before(static_cast<std::size_t>(tile));
-      solve_transposed_triangle<Scalar, N>(values + kTriangle * tile, rows + kTile * tile, y);
-      subtract_from_columns<Scalar, N>(values, kTile * tile, rows + kTile * tile, y, own);
+      solve_transposed_triangle<Vector, N>(values + kTriangle * tile, rows + kTile * tile, y);
+      subtract_from_columns<Vector, N>(values, kTile * tile, rows + kTile * tile, y, own);
     }
   }
 }
 
-#undef MORPHBAKE_INLINE
-
-template <class Scalar, int N>
-void substitute_anywhere(const Packed<Scalar>& packed, Row<Scalar, N>* y) {
-  forward<Scalar, N>(packed, y);
-  backward<Scalar, N>(packed, y);
+/// y <- L^-T L^-1 y, by vectors of some bytes.
+template <int Bytes, class Scalar, int Columns>
+MORPHBAKE_INLINE void substitute_by(const Packed<Scalar>& packed, Row<Scalar, Columns>* y) {
+  using Vector = VectorOf<Scalar, Bytes>;
+  constexpr int kVectors = Columns * static_cast<int>(sizeof(Scalar)) / Bytes;
+  auto* vectors = reinterpret_cast<typename Vector::Type*>(y);
+  forward<Vector, kVectors>(packed, vectors);
+  backward<Vector, kVectors>(packed, vectors);
 }
 
+#undef MORPHBAKE_INLINE
+
 #ifdef __x86_64__
-template <class Scalar, int N>
-[[gnu::target("avx2")]] void substitute_avx2(const Packed<Scalar>& packed, Row<Scalar, N>* y) {
-  forward<Scalar, N>(packed, y);
-  backward<Scalar, N>(packed, y);
+template <class Scalar, int Columns>
+[[gnu::target("avx512f")]] void substitute_avx512(const Packed<Scalar>& packed,
+                                                  Row<Scalar, Columns>* y) {
+  substitute_by<2 * kLeastBytes>(packed, y);
+}
+
+template <class Scalar, int Columns>
+[[gnu::target("avx2")]] void substitute_avx2(const Packed<Scalar>& packed,
+                                             Row<Scalar, Columns>* y) {
+  substitute_by<kLeastBytes>(packed, y);
 }
 #endif
 
 /// y <- L^-T L^-1 y
-template <class Scalar, int N>
-void substitute(const Packed<Scalar>& packed, Row<Scalar, N>* y) {
+template <class Scalar, int Columns>
+void substitute(const Packed<Scalar>& packed, Row<Scalar, Columns>* y) {
 #ifdef __x86_64__
-  if (__builtin_cpu_supports("avx2")) return substitute_avx2<Scalar, N>(packed, y);
+  if constexpr (Columns * sizeof(Scalar) % (2 * kLeastBytes) == 0) {
+    if (__builtin_cpu_supports("avx512f")) return substitute_avx512(packed, y);
+  }
+  if (__builtin_cpu_supports("avx2")) return substitute_avx2(packed, y);
 #endif
-  substitute_anywhere<Scalar, N>(packed, y);
+  substitute_by<kLeastBytes>(packed, y);
 }
 
 }  // namespace
@@ -227,74 +250,55 @@ void PackedFactor<Scalar>::pack(const SupernodalFactor& factor, std::size_t supe
   }
 }
 
-/// Right-hand sides, and solutions in their place.
 template <class Scalar>
-struct PackedFactor<Scalar>::Columns {
-  double* first = nullptr;
-  Eigen::Index count = 0;
-  Eigen::Index row_stride = 0, column_stride = 0;
-};
-
-template <class Scalar>
-template <int N>
-void PackedFactor<Scalar>::solve_panels(const Columns& columns, Eigen::Index first,
+template <int Vectors>
+void PackedFactor<Scalar>::solve_panels(ColumnRows& columns, Eigen::Index first,
                                         Eigen::Index last) const {
-  constexpr int kWidth = N * kLanes<Scalar>;
+  constexpr int kWidth = Vectors * kLeastLanes<Scalar>;
   // A supernode's last tile may reach beyond its columns, and the last one beyond all of them.
-  std::vector<Row<Scalar, N>> y(factored_rows_ + kTile);
-  const Eigen::Index stride = columns.column_stride;
+  std::vector<Row<Scalar, kWidth>> y(factored_rows_ + kTile);
   for (Eigen::Index begin = first; begin < last; begin += kWidth) {
     const Eigen::Index width = std::min<Eigen::Index>(kWidth, last - begin);
-    double* const panel = columns.first + begin * stride;
     for (std::size_t row = 0; row < place_.size(); ++row) {
       if (place_[row] < 0) continue;
-      Row<Scalar, N>& to = y[static_cast<std::size_t>(place_[row])];
-      const double* from = panel + columns.row_stride * static_cast<Eigen::Index>(row);
-      for (Eigen::Index c = 0; c < width; ++c, from += stride) {
-        to.vectors[c / kLanes<Scalar>][c % kLanes<Scalar>] = static_cast<Scalar>(*from);
-      }
+      const double* from = &columns(static_cast<Eigen::Index>(row), begin);
+      Scalar* to = y[static_cast<std::size_t>(place_[row])].columns;
+      for (Eigen::Index c = 0; c < width; ++c) to[c] = static_cast<Scalar>(from[c]);
     }
-    substitute<Scalar, N>({supernodes_, rows_.data(), values_.data()}, y.data());
+    substitute<Scalar, kWidth>({supernodes_, rows_.data(), values_.data()}, y.data());
     for (std::size_t row = 0; row < place_.size(); ++row) {
-      double* to = panel + columns.row_stride * static_cast<Eigen::Index>(row);
+      double* to = &columns(static_cast<Eigen::Index>(row), begin);
       if (place_[row] < 0) {
-        for (Eigen::Index c = 0; c < width; ++c, to += stride) *to = 0;
-        continue;
-      }
-      const Row<Scalar, N>& from = y[static_cast<std::size_t>(place_[row])];
-      for (Eigen::Index c = 0; c < width; ++c, to += stride) {
-        *to = from.vectors[c / kLanes<Scalar>][c % kLanes<Scalar>];
+        std::fill_n(to, width, 0.0);
+      } else {
+        std::copy_n(y[static_cast<std::size_t>(place_[row])].columns, width, to);
       }
     }
   }
 }
 
 template <class Scalar>
-void PackedFactor<Scalar>::solve_all(const Columns& columns) const {
-  constexpr Eigen::Index kWidest = kMostVectors * kLanes<Scalar>;
-  const Eigen::Index whole = columns.count / kWidest * kWidest, left = columns.count - whole;
-  if (whole > 0) solve_panels<kMostVectors>(columns, 0, whole);
-  if (left > 3 * kLanes<Scalar>) {
-    solve_panels<6>(columns, whole, columns.count);
-  } else if (left > 2 * kLanes<Scalar>) {
-    solve_panels<3>(columns, whole, columns.count);
-  } else if (left > kLanes<Scalar>) {
-    solve_panels<2>(columns, whole, columns.count);
+void PackedFactor<Scalar>::solve_in_place(ColumnRows& columns) const {
+  constexpr Eigen::Index kLanes = kLeastLanes<Scalar>;
+  const Eigen::Index count = columns.cols(), left = count % (kWidestPanel * kLanes);
+  const Eigen::Index whole = count - left;
+  if (whole > 0) solve_panels<kWidestPanel>(columns, 0, whole);
+  if (left > 3 * kLanes) {
+    solve_panels<kWidestPanel>(columns, whole, count);
+  } else if (left > 2 * kLanes) {
+    solve_panels<3>(columns, whole, count);
+  } else if (left > kLanes) {
+    solve_panels<2>(columns, whole, count);
   } else if (left > 0) {
-    solve_panels<1>(columns, whole, columns.count);
+    solve_panels<1>(columns, whole, count);
   }
 }
 
 template <class Scalar>
 Eigen::MatrixXd PackedFactor<Scalar>::solve(const Eigen::MatrixXd& b) const {
-  Eigen::MatrixXd x = b;
-  solve_all({x.data(), x.cols(), 1, x.rows()});
+  ColumnRows x = b;
+  solve_in_place(x);
   return x;
-}
-
-template <class Scalar>
-void PackedFactor<Scalar>::solve_in_place(ColumnRows& columns) const {
-  solve_all({columns.data(), columns.cols(), columns.cols(), 1});
 }
 
 template <class Scalar>

@@ -59,10 +59,8 @@ class PackedFactor {
 
  private:
   void pack(const SupernodalFactor& factor, std::size_t supernode);
-  struct Columns;
-  void solve_all(const Columns& columns) const;
-  template <int N>
-  void solve_panels(const Columns& columns, Eigen::Index first, Eigen::Index last) const;
+  template <int Vectors>
+  void solve_panels(ColumnRows& columns, Eigen::Index first, Eigen::Index last) const;
 
   std::vector<int> place_;  ///< #A: each row's in the factor, or -1
   std::size_t factored_rows_ = 0;
