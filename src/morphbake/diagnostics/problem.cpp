@@ -16,7 +16,8 @@ std::string joined(const std::vector<Problem>& problems) {
   return text;
 }
 
-/// File names and fields may hold anything; a terminal must not act on it.
+}  // namespace
+
 std::string without_control_characters(const std::string& text) {
   std::string shown;
   for (const char letter : text) {
@@ -29,8 +30,6 @@ std::string without_control_characters(const std::string& text) {
   }
   return shown;
 }
-
-}  // namespace
 
 std::string format_problem(const Problem& problem) {
   const Location& at = problem.location;
