@@ -218,7 +218,7 @@ std::vector<WeightsChannel> survey_channels(const GltfDocument& document, int no
               "let each animation have keys of its own");
     }
     budget.left -= numbers;
-    channels.push_back({pointer, animations[a].name,
+    channels.push_back({index, pointer, animations[a].name,
                         read_curve(document, index, channel->sampler, targets),
                         accessors.at(sampler.input, true, pointer + "/input"),
                         accessors.at(sampler.output, false, pointer + "/output")});
@@ -246,7 +246,7 @@ bool has_scale(const GltfDocument& document, int node) {
   return (local.topLeftCorner<3, 3>().colwise().norm().array() - 1).abs().maxCoeff() > kRounding;
 }
 
-MeshSurvey survey_mesh(const GltfFile& file, int node_index, const StoredViews& views,
+MeshSurvey survey_node(const GltfFile& file, int node_index, const StoredViews& views,
                        CurveBudget& budget) {
   const GltfDocument& document = *file;
   const tinygltf::Node& node = document.model.nodes[static_cast<std::size_t>(node_index)];
@@ -289,6 +289,12 @@ std::vector<int> nodes_to_survey(const GltfDocument& document, const MeshChoice&
 
 }  // namespace
 
+MeshSurvey survey_mesh(const GltfFile& file, const MeshChoice& choice) {
+  const MeshNode at = choose_mesh_node(*file, choice, Ambiguity::TakeFirst);
+  CurveBudget budget{most_curve_numbers(*file)};
+  return survey_node(file, at.node, stored_views(*file), budget);
+}
+
 std::vector<MeshSurvey> survey_meshes(const GltfFile& file, const MeshChoice& choice) {
   const std::vector<int> nodes = nodes_to_survey(*file, choice);
   std::vector<int> meshes;
@@ -305,7 +311,7 @@ std::vector<MeshSurvey> survey_meshes(const GltfFile& file, const MeshChoice& ch
   const StoredViews views = stored_views(*file);
   CurveBudget budget{most_curve_numbers(*file)};
   std::vector<MeshSurvey> surveys;
-  for (const int node : nodes) surveys.push_back(survey_mesh(file, node, views, budget));
+  for (const int node : nodes) surveys.push_back(survey_node(file, node, views, budget));
   return surveys;
 }
 

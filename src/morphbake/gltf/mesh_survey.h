@@ -43,6 +43,7 @@ struct StoredPrimitive {
 
 /// A channel that moves the weights of a node.
 struct WeightsChannel {
+  int animation = 0;           ///< of the file
   std::string pointer;         ///< of its sampler
   std::string animation_name;  ///< may be ""
   AnimationCurve curve;        ///< one number a target
@@ -66,6 +67,11 @@ struct MeshSurvey {
   std::vector<StoredPrimitive> primitives;
   std::vector<WeightsChannel> channels;  ///< in the file's order
 };
+
+/// Looks at the mesh of a node with all that is told of how it is stored.
+///
+/// @throws BakeError as read_animated_mesh
+MeshSurvey survey_mesh(const GltfFile& file, const MeshChoice& choice = {});
 
 /// Looks at meshes of a file with all that is told of how they are stored.
 ///

@@ -30,6 +30,19 @@ LintedMesh find_facts(const MeshSurvey& survey, const Observer& observer) {
   return facts;
 }
 
+TargetRows target_rows(const AnimatedMesh& mesh) {
+  TargetRows rows;
+  for (const AnimatedPrimitive& primitive : mesh.primitives) {
+    const auto& normals = primitive.target_normals;
+    const bool has_normals =
+        std::ranges::any_of(normals, [](const Float3s& normal) { return normal.rows() > 0; });
+    const auto count = static_cast<double>(primitive.positions.rows()) *
+                       static_cast<double>(primitive.target_positions.size());
+    (has_normals ? rows.with_normals : rows.plain) += count;
+  }
+  return rows;
+}
+
 void check_mesh(const LintSubject& subject, std::vector<Finding>& findings) {
   for (const auto& table : kTables) {
     for (const CheckedRule& checked : table()) {
@@ -125,11 +138,11 @@ std::vector<LintRule> lint_rules() {
   return rules;
 }
 
-std::vector<GpuMemory> gpu_memory(const std::vector<Profile>& profiles, double rows,
-                                  bool with_normals) {
+std::vector<GpuMemory> gpu_memory(const std::vector<Profile>& profiles, const AnimatedMesh& mesh) {
+  const TargetRows rows = target_rows(mesh);
   std::vector<GpuMemory> memory;
   for (const Profile& profile : profiles) {
-    const auto bytes = gpu_bytes(profile, rows, with_normals);
+    const auto bytes = gpu_bytes(profile, rows);
     if (bytes) memory.push_back({profile.name, *bytes});
   }
   return memory;
@@ -144,8 +157,7 @@ LintReport lint(const GltfFile& file, const Profile& profile, const MeshChoice& 
   for (const MeshSurvey& survey : survey_meshes(file, choice)) {
     stop_if_cancelled(observer);
     LintedMesh& facts = report.meshes.emplace_back(find_facts(survey, observer));
-    facts.gpu = gpu_memory(profiles, static_cast<double>(facts.vertices) * facts.targets,
-                           facts.has_normals);
+    facts.gpu = gpu_memory(profiles, survey.mesh);
     check_mesh({survey, report.meshes.back(), profile, options}, report.findings);
   }
   return report;

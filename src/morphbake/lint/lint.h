@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "morphbake/diagnostics/observer.h"
+#include "morphbake/gltf/animated_mesh.h"
 #include "morphbake/gltf/gltf_file.h"
 #include "morphbake/gltf/mesh_choice.h"
 #include "morphbake/profile/profile.h"
@@ -85,11 +86,8 @@ struct LintOptions {
 LintReport lint(const GltfFile& file, const Profile& profile, const MeshChoice& choice = {},
                 const LintOptions& options = {}, const Observer& observer = {});
 
-/// What targets take on the GPU with each profile that knows it.
-///
-/// @param rows  vertices times targets
-std::vector<GpuMemory> gpu_memory(const std::vector<Profile>& profiles, double rows,
-                                  bool with_normals);
+/// What the targets of a mesh take on the GPU with each profile that knows it.
+std::vector<GpuMemory> gpu_memory(const std::vector<Profile>& profiles, const AnimatedMesh& mesh);
 
 /// The number of findings of that severity.
 int count(const LintReport& report, FindingSeverity severity);

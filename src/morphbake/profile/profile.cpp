@@ -149,11 +149,12 @@ std::optional<int> most_targets(const Profile& profile, bool with_normals) {
   return is_own ? profile.most_targets_with_normals : profile.most_targets;
 }
 
-std::optional<double> gpu_bytes(const Profile& profile, double rows, bool with_normals) {
-  const std::optional<int>& bytes =
-      with_normals ? profile.gpu_bytes_with_normals : profile.gpu_bytes;
-  if (!bytes) return std::nullopt;
-  return rows * *bytes;
+std::optional<double> gpu_bytes(const Profile& profile, const TargetRows& rows) {
+  const bool is_known = (rows.plain == 0 || profile.gpu_bytes) &&
+                        (rows.with_normals == 0 || profile.gpu_bytes_with_normals);
+  if (!is_known || (!profile.gpu_bytes && !profile.gpu_bytes_with_normals)) return std::nullopt;
+  return rows.plain * profile.gpu_bytes.value_or(0) +
+         rows.with_normals * profile.gpu_bytes_with_normals.value_or(0);
 }
 
 }  // namespace morphbake

@@ -70,9 +70,13 @@ std::string profile_to_json(const Profile& profile);
 /// Most targets of a mesh, with NORMAL or without; none: no limit is known.
 std::optional<int> most_targets(const Profile& profile, bool with_normals);
 
+/// Vertices times targets, summed over the primitives of a mesh.
+struct TargetRows {
+  double plain = 0;
+  double with_normals = 0;  ///< of primitives whose targets have NORMAL
+};
+
 /// What the targets of a mesh take on the GPU, in bytes; none where it is not known.
-///
-/// @param rows  vertices times targets
-std::optional<double> gpu_bytes(const Profile& profile, double rows, bool with_normals);
+std::optional<double> gpu_bytes(const Profile& profile, const TargetRows& rows);
 
 }  // namespace morphbake
