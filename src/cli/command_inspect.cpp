@@ -63,7 +63,8 @@ std::vector<std::string> lines_of(const InspectFacts& facts) {
     for (const std::string& line : health_lines(*health)) lines.push_back(line);
   } else {
     const auto& problem = std::get<Problem>(facts.health);
-    lines.push_back(fmt::format("health      not examined: {} [{}]", problem.message, problem.code));
+    lines.push_back(
+        fmt::format("health      not examined: {} [{}]", problem.message, problem.code));
   }
   return lines;
 }
@@ -76,7 +77,8 @@ void write_picture(const InspectFacts& facts) {
   const std::string title =
       fmt::format("weights{} in {}", animation, facts.file.filename().string());
   PendingOutputs outputs;
-  outputs.stage(facts.weights->picture, encode_png(draw_weights(facts.weights->curve, names, title)));
+  outputs.stage(facts.weights->picture,
+                encode_png(draw_weights(facts.weights->curve, names, title)));
   outputs.commit();
 }
 
@@ -108,14 +110,14 @@ Command add_inspect(CLI::App& program) {
                      "from 0 (default: the last one that moves the weights)");
   parser->add_flag("--json", arguments->json, "The same as JSON, with the weights that are drawn");
   parser->footer(
-      "\nA target's bytes are those of its accessors in the file, compressed where they are; on the\n"
+      "\nA target's bytes are those of its accessors in the file, compressed where they are; on "
+      "the\n"
       "GPU it takes what each engine makes of it (morphbake lint --list).\n"
       "\nHealth is what a bake mends, warns of or refuses in the mesh; looking through a million\n"
       "triangles takes some seconds.\n"
       "\nExample: morphbake inspect morph.glb --json\n"
       "         morphbake inspect morph.glb --weights weights.png");
-  return {parser,
-          [arguments](Terminal& terminal) { run_inspect(*arguments, terminal); }};
+  return {parser, [arguments](Terminal& terminal) { run_inspect(*arguments, terminal); }};
 }
 
 }  // namespace morphbake::cli

@@ -60,8 +60,9 @@ bool run_lint(const Arguments& arguments, Terminal& terminal) {
                       "`morphbake lint --list` shows all profiles; see morphbake lint --help");
   }
   const Profile profile = read_profile(arguments.profile);
-  const LintReport report = lint(open_gltf(arguments.file), profile, {.node = name_or_index(arguments.node)},
-                                 arguments.options, terminal.observer());
+  const LintReport report =
+      lint(open_gltf(arguments.file), profile, {.node = name_or_index(arguments.node)},
+           arguments.options, terminal.observer());
   if (arguments.json) {
     terminal.result(lint_to_json(report));
   } else {

@@ -22,8 +22,7 @@ std::string title_of(const Profile& profile) {
 }
 
 void add_mesh(const LintedMesh& mesh, std::vector<std::string>& lines) {
-  const std::string name =
-      mesh.node_name.empty() ? "" : fmt::format(" \"{}\"", mesh.node_name);
+  const std::string name = mesh.node_name.empty() ? "" : fmt::format(" \"{}\"", mesh.node_name);
   lines.push_back(fmt::format("mesh        of {}{}: {}, {} vertices", mesh.node_pointer, name,
                               counted(mesh.primitives, "primitive", "primitives"), mesh.vertices));
   const char* normals = mesh.has_normals ? " with NORMAL" : "";
@@ -76,8 +75,8 @@ std::vector<std::string> lint_lines(const LintReport& report, const Profile& pro
   for (const LintedMesh& mesh : report.meshes) add_mesh(mesh, lines);
   for (const Finding& finding : report.findings) {
     if (hides_notes && finding.severity == FindingSeverity::Note) continue;
-    lines.push_back(fmt::format("{:<11} {} [{}]", name_of(finding.severity), finding.message,
-                                finding.rule));
+    lines.push_back(
+        fmt::format("{:<11} {} [{}]", name_of(finding.severity), finding.message, finding.rule));
     lines.push_back(fmt::format("            at #{}", finding.pointer));
     lines.push_back(fmt::format("            hint: {}", finding.right));
   }
@@ -94,10 +93,9 @@ std::vector<std::string> rule_lines() {
   lines.push_back(fmt::format("{:<12} {:>8}  {:<6} {:<9} {:<7} {}", "profile", "targets", "sparse",
                               "quantized", "meshopt", "known from"));
   for (const Profile& profile : shipped_profiles()) {
-    lines.push_back(fmt::format("{:<12} {:>8}  {:<6} {:<9} {:<7} {}", profile.name,
-                                limit_of(profile), sparse_of(profile),
-                                yes(profile.mesh_quantization), yes(profile.meshopt_compression),
-                                title_of(profile)));
+    lines.push_back(fmt::format(
+        "{:<12} {:>8}  {:<6} {:<9} {:<7} {}", profile.name, limit_of(profile), sparse_of(profile),
+        yes(profile.mesh_quantization), yes(profile.meshopt_compression), title_of(profile)));
   }
   lines.emplace_back();
   lines.push_back(fmt::format("{:<24} {:<8} {}", "rule", "severity", "finds"));

@@ -181,11 +181,10 @@ StoredPrimitive survey_primitive(const tinygltf::Primitive& source, const std::s
                                  AccessorSurvey& accessors) {
   StoredPrimitive primitive;
   primitive.pointer = pointer;
-  primitive.attributes =
-      survey_attributes(source.attributes, pointer + "/attributes", accessors);
+  primitive.attributes = survey_attributes(source.attributes, pointer + "/attributes", accessors);
   for (std::size_t t = 0; t < source.targets.size(); ++t) {
-    primitive.targets.push_back(survey_attributes(
-        source.targets[t], child_pointer(pointer + "/targets", t), accessors));
+    primitive.targets.push_back(
+        survey_attributes(source.targets[t], child_pointer(pointer + "/targets", t), accessors));
   }
   return primitive;
 }
@@ -208,8 +207,7 @@ std::vector<WeightsChannel> survey_channels(const GltfDocument& document, int no
     const int index = static_cast<int>(a);
     const tinygltf::AnimationSampler& sampler =
         animation_sampler(document, index, channel->sampler);
-    const std::string pointer =
-        fmt::format("/animations/{}/samplers/{}", a, channel->sampler);
+    const std::string pointer = fmt::format("/animations/{}/samplers/{}", a, channel->sampler);
     const std::size_t numbers = accessor_count(document, sampler.input, pointer + "/input") +
                                 accessor_count(document, sampler.output, pointer + "/output");
     if (numbers > budget.left) {

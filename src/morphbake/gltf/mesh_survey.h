@@ -12,7 +12,8 @@ namespace morphbake {
 /// An accessor as it lies in its file, compressed or not.
 struct StoredAccessor {
   int index = -1;
-  int component_type = 5126;  ///< glTF's: 5120 int8, 5121 uint8, 5122 int16, 5123 uint16, 5126 float
+  int component_type =
+      5126;  ///< glTF's: 5120 int8, 5121 uint8, 5122 int16, 5123 uint16, 5126 float
   bool is_normalized = false;
   int columns = 0;  ///< numbers an element
   std::size_t count = 0;

@@ -58,14 +58,14 @@ struct LintedMesh {
   int primitives = 0;
   Eigen::Index vertices = 0;
   int targets = 0;
-  bool has_normals = false;       ///< any target has NORMAL
-  int most_active = 0;            ///< targets with weights other than 0 at one time
-  double most_active_time = 0;    ///< seconds
-  Eigen::AlignedBox3d rest;       ///< in the scene, without morphing
-  Eigen::AlignedBox3d motion;     ///< in the scene, over all animations of the weights
-  int motion_poses = 0;           ///< how many the motion was taken from
+  bool has_normals = false;        ///< any target has NORMAL
+  int most_active = 0;             ///< targets with weights other than 0 at one time
+  double most_active_time = 0;     ///< seconds
+  Eigen::AlignedBox3d rest;        ///< in the scene, without morphing
+  Eigen::AlignedBox3d motion;      ///< in the scene, over all animations of the weights
+  int motion_poses = 0;            ///< how many the motion was taken from
   bool is_motion_sampled = false;  ///< there were more than could be looked at
-  std::vector<GpuMemory> gpu;     ///< by each shipped profile that knows, in their order
+  std::vector<GpuMemory> gpu;      ///< by each shipped profile that knows, in their order
 };
 
 struct LintReport {

@@ -6,7 +6,7 @@
 namespace morphbake {
 namespace {
 
-constexpr int kBetweenKeys = 8;          // of splines
+constexpr int kBetweenKeys = 8;         // of splines
 constexpr double kMostDisplaced = 2e9;  // vertices: some seconds
 constexpr double kPose = 1000;          // vertices that could be displaced while a pose is set up
 
@@ -19,7 +19,8 @@ int active_from(const AnimationCurve& curve, Eigen::Index key) {
     bool is_active = curve.values(key, t) != 0;
     if (!stays) is_active = is_active || curve.values(key + 1, t) != 0;
     if (!stays && curve.interpolation == Interpolation::CubicSpline) {
-      is_active = is_active || curve.out_tangents(key, t) != 0 || curve.in_tangents(key + 1, t) != 0;
+      is_active =
+          is_active || curve.out_tangents(key, t) != 0 || curve.in_tangents(key + 1, t) != 0;
     }
     count += is_active ? 1 : 0;
   }

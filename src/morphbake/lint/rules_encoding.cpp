@@ -64,8 +64,8 @@ std::vector<Fault> check_zeros(const LintSubject& at) {
   if (at.profile.accessors_of_zeros) return {};
   return faulty_attributes(
       at, [](const StoredAccessor& accessor) { return !accessor.is_sparse && accessor.view < 0; },
-      "the accessor has neither bufferView nor sparse: all zeros in glTF, but " +
-          at.profile.title + " may read garbage",
+      "the accessor has neither bufferView nor sparse: all zeros in glTF, but " + at.profile.title +
+          " may read garbage",
       "write one sparse element of zeros, or a dense accessor");
 }
 
@@ -93,10 +93,10 @@ std::vector<Fault> check_quantization(const LintSubject& at) {
                       "write float32"});
   }
   if (faults.empty() && uses(at.survey, "KHR_mesh_quantization")) {
-    faults.push_back({"/extensionsUsed",
-                      "the file uses KHR_mesh_quantization, which " + at.profile.title +
-                          " does not read",
-                      "write float32"});
+    faults.push_back(
+        {"/extensionsUsed",
+         "the file uses KHR_mesh_quantization, which " + at.profile.title + " does not read",
+         "write float32"});
   }
   return first_of(std::move(faults));
 }
@@ -135,7 +135,8 @@ std::vector<Fault> bound_faults(const StoredAccessor& accessor, bool is_required
   const bool has_both = !accessor.declared_min.empty() && !accessor.declared_max.empty();
   if (!has_both) {
     if (!is_required) return {};
-    return {{pointer, "the accessor has no min and max", "write the least and the largest numbers"}};
+    return {
+        {pointer, "the accessor has no min and max", "write the least and the largest numbers"}};
   }
   // A normalized -128 or -32768 counts as -127 or -32767.
   std::vector<double> low = accessor.declared_min;

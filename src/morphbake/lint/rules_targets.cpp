@@ -67,10 +67,10 @@ std::vector<Fault> check_base_attributes(const LintSubject& at) {
     for (const auto& target : primitive.targets) {
       for (const StoredAttribute& attribute : target) {
         if (base.contains(attribute.name)) continue;
-        faults.push_back({attribute.pointer,
-                          fmt::format("the target moves {}, which the primitive does not have",
-                                      attribute.name),
-                          "a target may only move what its primitive has"});
+        faults.push_back(
+            {attribute.pointer,
+             fmt::format("the target moves {}, which the primitive does not have", attribute.name),
+             "a target may only move what its primitive has"});
       }
     }
   }
@@ -93,10 +93,10 @@ std::vector<Fault> check_unused_vertices(const LintSubject& at) {
     }
     const auto unused = std::ranges::count(is_used, false);
     if (unused == 0) continue;
-    faults.push_back({at.survey.primitives[p].pointer,
-                      fmt::format("{} of {} vertices belong to no triangle", unused,
-                                  is_used.size()),
-                      "leave them out: each takes room in every target, and some clients drop them"});
+    faults.push_back(
+        {at.survey.primitives[p].pointer,
+         fmt::format("{} of {} vertices belong to no triangle", unused, is_used.size()),
+         "leave them out: each takes room in every target, and some clients drop them"});
   }
   return first_of(std::move(faults));
 }

@@ -14,7 +14,7 @@ constexpr int kMostStrips = 500;
 constexpr int kWidth = 1200, kLeft = 232, kRight = 24, kTop = 48, kBottom = 44;
 constexpr int kAllStrips = 600;  // pixels that few strips share
 constexpr int kLeastStrip = 24, kMostStrip = 150;
-constexpr int kText = 2;          // scale of letters
+constexpr int kText = 2;  // scale of letters
 constexpr float kLine = 2, kGap = 3;
 constexpr std::size_t kMostKeys = 20000;  // that are drawn one by one
 
@@ -23,7 +23,7 @@ constexpr Ink kBlack{{40, 40, 40}, 1}, kGrey{{205, 205, 205}, 1};
 /// Where weights and times lie in the picture.
 struct Plot {
   int strips = 0;
-  int strip = 0;  ///< pixels from one to the next
+  int strip = 0;   ///< pixels from one to the next
   double end = 0;  ///< seconds
   float low = 0, high = 1;
 
@@ -138,10 +138,10 @@ Image draw_weights(const AnimationCurve& curve, const std::vector<std::string>& 
                    const std::string& title) {
   const Plot plot = plot_of(curve);
   Image image = blank_image(kWidth, plot.bottom() + kBottom, {255, 255, 255});
-  const std::string cut = plot.strips < curve.values.cols()
-                              ? fmt::format(", the first {} of {} targets", plot.strips,
-                                            curve.values.cols())
-                              : "";
+  const std::string cut =
+      plot.strips < curve.values.cols()
+          ? fmt::format(", the first {} of {} targets", plot.strips, curve.values.cols())
+          : "";
   draw_text(image, fitted_text(title + cut, kWidth - 24, kText), {12, 14}, kText, kBlack);
   draw_time_axis(image, plot);
   const std::vector<double> moments = moments_of(curve, plot);

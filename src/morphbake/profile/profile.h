@@ -25,11 +25,11 @@ struct Profile {
   std::string name;   ///< the file's, without .json: "web-three"
   std::string title;  ///< "three.js"
   Evidence evidence = Evidence::Documentation;
-  std::string client;   ///< what was run or read
-  std::string version;  ///< of the client, or ""
+  std::string client;                ///< what was run or read
+  std::string version;               ///< of the client, or ""
   std::vector<std::string> sources;  ///< where what stands here comes from
 
-  std::optional<int> most_targets;              ///< of a mesh; none: no limit is known
+  std::optional<int> most_targets;               ///< of a mesh; none: no limit is known
   std::optional<int> most_targets_with_normals;  ///< where targets have NORMAL
   std::optional<int> most_active;                ///< with weights other than 0 at one time
 
