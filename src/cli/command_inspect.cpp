@@ -6,6 +6,8 @@
 #include "cli/health_text.h"
 #include "cli/inspect_facts.h"
 #include "cli/lint_text.h"
+#include "morphbake/diagnostics/counted.h"
+#include "morphbake/diagnostics/shown_text.h"
 #include "morphbake/files/files.h"
 #include "morphbake/preview/weights_picture.h"
 
@@ -52,8 +54,9 @@ std::vector<std::string> lines_of(const InspectFacts& facts) {
   const Eigen::Vector3d high = facts.bounds.max();
   std::vector<std::string> lines = {
       fmt::format("file        {} ({} bytes)", facts.file.string(), facts.bytes),
-      fmt::format("mesh        of node {}: {} primitives, {} vertices, {} triangles", facts.node,
-                  facts.primitives, facts.vertices, facts.triangles),
+      fmt::format("mesh        of node {}: {}, {} vertices, {} triangles", facts.node,
+                  counted(static_cast<int>(facts.primitives), "primitive", "primitives"),
+                  facts.vertices, facts.triangles),
       fmt::format("bounds      ({:.4g}, {:.4g}, {:.4g}) to ({:.4g}, {:.4g}, {:.4g})", low.x(),
                   low.y(), low.z(), high.x(), high.y(), high.z())};
   add_motion(facts, lines);

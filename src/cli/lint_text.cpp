@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include "morphbake/diagnostics/counted.h"
+#include "morphbake/diagnostics/shown_text.h"
 
 namespace morphbake::cli {
 namespace {
@@ -18,7 +19,8 @@ std::string title_of(const Profile& profile) {
   const char* known = profile.evidence == Evidence::Client
                           ? "run by morphbake's tests"
                           : "from its documentation and sources only";
-  return fmt::format("{}{}: {}", profile.title, version, known);
+  const std::string& client = profile.client.empty() ? profile.title : profile.client;
+  return fmt::format("{}{}, {}", client, version, known);
 }
 
 void add_mesh(const LintedMesh& mesh, std::vector<std::string>& lines) {
@@ -32,7 +34,7 @@ void add_mesh(const LintedMesh& mesh, std::vector<std::string>& lines) {
   const char* sampled = mesh.is_motion_sampled ? ", which are some of all" : "";
   lines.push_back(fmt::format("in motion   {}, over {}{}", shown_box(mesh.motion),
                               counted(mesh.motion_poses, "pose", "poses"), sampled));
-  lines.push_back("GPU         " + shown_memory(mesh.gpu));
+  if (mesh.targets > 0) lines.push_back("GPU         " + shown_memory(mesh.gpu));
 }
 
 /// "255", "8 / 4": most targets, and with normals where that differs.

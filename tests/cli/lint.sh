@@ -1,6 +1,8 @@
 # What `lint` says and returns, and what `inspect` tells of targets. bash lint.sh PROGRAM SCRATCH RECIPE
 . "$(dirname "$0")/testing.sh"
-run 0 bake "$3" --preview none -o out
+cp "$(dirname "$3")"/{flat,tall}.gltf .
+jq '.outputs = [{file: "tetrahedra.glb"}]' "$3" >recipe.json
+run 0 bake recipe.json --preview none -o out
 file=out/tetrahedra.glb
 
 run 0 lint --list
@@ -41,8 +43,7 @@ run 2 lint few.json --profile web-three --log json
 stderr_is_json_lines
 
 # What a file says cannot act on the terminal.
-jq '.nodes[0].name = "\u001b[31mred"' "$(dirname "$3")/flat.gltf" >red.gltf
-cp "$(dirname "$3")"/*.bin . 2>/dev/null
+jq '.nodes[0].name = "\u001b[31mred"' flat.gltf >red.gltf
 run 0 lint red.gltf --profile web-three
 grep -q $'\033' "$scratch/stdout" && wrong "a control character reaches the terminal"
 stdout_has '\u001b[31mred'

@@ -130,9 +130,10 @@ struct MorphFile {
     weights[static_cast<std::size_t>(targets)] = 1;
     draft.json["animations"] = {
         {{"name", "Play"},
-         {"samplers", {{{"input", append({0, 0.5, 1}, "SCALAR")},
-                        {"output", append(weights, "SCALAR")},
-                        {"interpolation", "LINEAR"}}}},
+         {"samplers",
+          {{{"input", append({0, 0.5, 1}, "SCALAR")},
+            {"output", append(weights, "SCALAR")},
+            {"interpolation", "LINEAR"}}}},
          {"channels", {{{"sampler", 0}, {"target", {{"node", 0}, {"path", "weights"}}}}}}}};
   }
 

@@ -4,6 +4,8 @@
 
 #include <utility>
 
+#include "morphbake/diagnostics/shown_text.h"
+
 namespace morphbake {
 namespace {
 
@@ -17,19 +19,6 @@ std::string joined(const std::vector<Problem>& problems) {
 }
 
 }  // namespace
-
-std::string without_control_characters(const std::string& text) {
-  std::string shown;
-  for (const char letter : text) {
-    const auto byte = static_cast<unsigned char>(letter);
-    if (byte < 0x20 || byte == 0x7F) {
-      shown += fmt::format("\\u{:04x}", byte);
-    } else {
-      shown += letter;
-    }
-  }
-  return shown;
-}
 
 std::string format_problem(const Problem& problem) {
   const Location& at = problem.location;

@@ -27,10 +27,6 @@ struct Problem {
   std::string hint;     ///< what would be right; may be empty
 };
 
-/// `text` with \u001b and the like for control characters: file names and fields may hold anything,
-/// and a terminal must not act on it.
-std::string without_control_characters(const std::string& text);
-
 /// "file#/pointer: error: message [code]", and the hint on a second line.
 std::string format_problem(const Problem& problem);
 

@@ -1,7 +1,10 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <array>
+#include <map>
 #include <set>
+#include <string_view>
 
 #include "morphbake/lint/rules.h"
 
@@ -33,6 +36,17 @@ std::set<std::string> names_of(const std::vector<StoredAttribute>& attributes) {
   return names;
 }
 
+/// What clients keep in one list for all targets of a mesh.
+constexpr std::array<std::string_view, 4> kListed = {"POSITION", "NORMAL", "TANGENT", "COLOR_0"};
+
+std::set<std::string> listed_of(const std::vector<StoredAttribute>& attributes) {
+  std::set<std::string> names = names_of(attributes);
+  std::erase_if(names, [](const std::string& name) {
+    return std::ranges::find(kListed, name) == kListed.end();
+  });
+  return names;
+}
+
 std::string list_of(const std::set<std::string>& names) {
   std::string list;
   for (const std::string& name : names) list += (list.empty() ? "" : ", ") + name;
@@ -46,10 +60,12 @@ std::string target_pointer(const StoredPrimitive& primitive, std::size_t target)
 std::vector<Fault> check_equal_attributes(const LintSubject& at) {
   std::vector<Fault> faults;
   std::set<std::string> all;
-  for (const StoredAttribute* attribute : target_attributes(at.survey)) all.insert(attribute->name);
+  for (const StoredPrimitive& primitive : at.survey.primitives) {
+    for (const auto& target : primitive.targets) all.merge(listed_of(target));
+  }
   for (const StoredPrimitive& primitive : at.survey.primitives) {
     for (std::size_t t = 0; t < primitive.targets.size(); ++t) {
-      const std::set<std::string> own = names_of(primitive.targets[t]);
+      const std::set<std::string> own = listed_of(primitive.targets[t]);
       if (own == all) continue;
       faults.push_back({target_pointer(primitive, t),
                         fmt::format("the target moves {}, others {}", list_of(own), list_of(all)),
@@ -83,19 +99,36 @@ std::vector<Fault> check_any_target(const LintSubject& at) {
            "choose another node by --node if one is meant"}};
 }
 
+/// The accessor of a primitive's positions, which primitives may share.
+int position_accessor(const StoredPrimitive& primitive) {
+  const auto found =
+      std::ranges::find(primitive.attributes, std::string("POSITION"), &StoredAttribute::name);
+  return found->accessor.index;  // without any the mesh was not read
+}
+
 std::vector<Fault> check_unused_vertices(const LintSubject& at) {
-  std::vector<Fault> faults;
+  struct Use {
+    std::string pointer;
+    std::vector<bool> is_used;
+  };
+
+  std::map<int, Use> uses;  // by accessor
   for (std::size_t p = 0; p < at.survey.primitives.size(); ++p) {
     const AnimatedPrimitive& primitive = at.survey.mesh.primitives[p];
-    std::vector<bool> is_used(static_cast<std::size_t>(primitive.positions.rows()), false);
+    Use& use = uses[position_accessor(at.survey.primitives[p])];
+    if (use.pointer.empty()) use.pointer = at.survey.primitives[p].pointer;
+    use.is_used.resize(static_cast<std::size_t>(primitive.positions.rows()), false);
     for (const int vertex : primitive.triangles.reshaped()) {
-      is_used[static_cast<std::size_t>(vertex)] = true;
+      use.is_used[static_cast<std::size_t>(vertex)] = true;
     }
-    const auto unused = std::ranges::count(is_used, false);
+  }
+  std::vector<Fault> faults;
+  for (const auto& [accessor, use] : uses) {
+    const auto unused = std::ranges::count(use.is_used, false);
     if (unused == 0) continue;
     faults.push_back(
-        {at.survey.primitives[p].pointer,
-         fmt::format("{} of {} vertices belong to no triangle", unused, is_used.size()),
+        {use.pointer,
+         fmt::format("{} of {} vertices belong to no triangle", unused, use.is_used.size()),
          "leave them out: each takes room in every target, and some clients drop them"});
   }
   return first_of(std::move(faults));
@@ -108,7 +141,7 @@ constexpr CheckedRule kRules[] = {
       "more targets with weights other than 0 at one time than the client shows"},
      check_active},
     {{"unequal-attributes", FindingSeverity::Error,
-      "a target without POSITION, NORMAL or TANGENT that another one of the mesh has"},
+      "a target without POSITION, NORMAL, TANGENT or COLOR_0 that another one of the mesh has"},
      check_equal_attributes},
     {{"attribute-without-base", FindingSeverity::Error,
       "a target that moves what its primitive does not have"},

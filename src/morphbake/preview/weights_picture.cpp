@@ -15,7 +15,7 @@ constexpr int kWidth = 1200, kLeft = 232, kRight = 24, kTop = 48, kBottom = 44;
 constexpr int kAllStrips = 600;  // pixels that few strips share
 constexpr int kLeastStrip = 24, kMostStrip = 150;
 constexpr int kText = 2;  // scale of letters
-constexpr float kLine = 2, kGap = 3;
+constexpr float kLine = 2, kLeastGap = 3;
 constexpr std::size_t kMostKeys = 20000;  // that are drawn one by one
 
 constexpr Ink kBlack{{40, 40, 40}, 1}, kGrey{{205, 205, 205}, 1};
@@ -33,8 +33,9 @@ struct Plot {
   }
 
   float y_of(int row, float weight) const {
-    const float bottom = static_cast<float>(kTop + (row + 1) * strip) - kGap;
-    const float height = static_cast<float>(strip) - 2 * kGap;
+    const float gap = std::max(kLeastGap, static_cast<float>(strip) / 12);
+    const float bottom = static_cast<float>(kTop + (row + 1) * strip) - gap;
+    const float height = static_cast<float>(strip) - 2 * gap;
     return bottom - (weight - low) / (high - low) * height;
   }
 
@@ -58,7 +59,7 @@ Ink colour_of(int target) {
   const double hue = std::fmod(0.6 + target * 0.6180339887498949, 1.0) * 6;
   const auto part = [&](double shift) {
     const double ramp = std::clamp(std::abs(std::fmod(hue + shift, 6.0) - 3) - 1, 0.0, 1.0);
-    return static_cast<std::uint8_t>(std::lround(20 + 175 * ramp));
+    return static_cast<std::uint8_t>(std::lround(15 + 160 * ramp));
   };
   return {{part(0), part(4), part(2)}, 1};
 }

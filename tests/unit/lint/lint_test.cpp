@@ -115,6 +115,15 @@ TEST(Lint, CountsVerticesWithoutTriangles) {
   EXPECT_EQ(finding.message, "1 of 4 vertices belong to no triangle");
 }
 
+TEST(Lint, VerticesOfPrimitivesThatShareThemAreUsed) {
+  MorphFile file;
+  file.primitive()["indices"] = file.append({0, 1, 2}, "SCALAR", {5125});
+  Json second = file.primitive();
+  second["indices"] = file.append({1, 2, 3}, "SCALAR", {5125});
+  file.mesh()["primitives"].push_back(second);
+  EXPECT_THAT(codes_of(file), IsEmpty());
+}
+
 TEST(Lint, FindsSparseAccessors) {
   MorphFile file;
   file.make_sparse(file.target(0)["POSITION"], false);
@@ -207,8 +216,7 @@ TEST(Lint, TellsWhereNormalDeltasWereCutOff) {
   EXPECT_EQ(finding.rule, "quantized-normals");
   EXPECT_THAT(finding.message, HasSubstr("normals of 1 vertices were cut off"));
   // From (1, 0, 0) to (0, 1, 0) is a delta of exactly 1 and all right.
-  file.target(0)["NORMAL"] =
-      file.append({-127, 127, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0}, "VEC3", kInt8);
+  file.target(0)["NORMAL"] = file.append({-127, 127, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0}, "VEC3", kInt8);
   EXPECT_THAT(codes_of(file), IsEmpty());
 }
 

@@ -105,9 +105,9 @@ TEST(Profile, DefaultsAreThoseOfTheSchema) {
   written.erase("title");
   EXPECT_EQ(written, defaults);
   Profile full;
-  for (auto limit : {&Profile::most_targets, &Profile::most_targets_with_normals,
-                     &Profile::most_active, &Profile::name_bytes, &Profile::gpu_bytes,
-                     &Profile::gpu_bytes_with_normals}) {
+  for (auto limit :
+       {&Profile::most_targets, &Profile::most_targets_with_normals, &Profile::most_active,
+        &Profile::name_bytes, &Profile::gpu_bytes, &Profile::gpu_bytes_with_normals}) {
     full.*limit = 1;
   }
   Json all;
