@@ -104,7 +104,7 @@ Json to_json(const TargetFacts& target) {
   return {{"name", target.name},
           {"moving_vertices", target.moving_vertices},
           {"largest_displacement", target.largest_displacement},
-          {"bytes", std::round(target.file_bytes)}};
+          {"bytes", std::llround(target.file_bytes)}};
 }
 
 Json to_json(const WeightsAnimation& animation) {
@@ -185,7 +185,7 @@ std::string inspect_json(const InspectFacts& facts) {
   json["vertices"] = facts.vertices;
   json["triangles"] = facts.triangles;
   json["targets"] = list_of(facts.targets);
-  json["target_bytes"] = std::round(target_bytes(facts));
+  json["target_bytes"] = std::llround(target_bytes(facts));
   json["moving_vertices"] = facts.moving_vertices;
   json["largest_displacement"] = largest_displacement(facts);
   json["animations"] = list_of(facts.animations);
@@ -193,8 +193,9 @@ std::string inspect_json(const InspectFacts& facts) {
   json["bounds"]["max"] = to_json(facts.bounds.max());
   json["gpu"] = Json::array();
   for (const GpuMemory& memory : facts.gpu) {
-    json["gpu"].push_back({{"profile", memory.profile}, {"bytes", memory.bytes}});
-    if (memory.profile == "web-three") json["gpu_bytes"] = memory.bytes;
+    const auto bytes = std::llround(memory.bytes);
+    json["gpu"].push_back({{"profile", memory.profile}, {"bytes", bytes}});
+    if (memory.profile == "web-three") json["gpu_bytes"] = bytes;
   }
   if (facts.weights) json["weights"] = to_json(*facts.weights);
   json["health"] = health_of(facts);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "morphbake/json/json.h"
 #include "morphbake/lint/motion_facts.h"
@@ -78,7 +79,7 @@ Json to_json(const LintedMesh& mesh) {
   json["motion_sampled"] = mesh.is_motion_sampled;
   json["gpu"] = Json::array();
   for (const GpuMemory& memory : mesh.gpu) {
-    json["gpu"].push_back({{"profile", memory.profile}, {"bytes", memory.bytes}});
+    json["gpu"].push_back({{"profile", memory.profile}, {"bytes", std::llround(memory.bytes)}});
   }
   return json;
 }
