@@ -39,11 +39,11 @@ struct Profile {
   bool mesh_quantization = false;       ///< KHR_mesh_quantization
   bool meshopt_compression = false;     ///< EXT_meshopt_compression
 
-  std::vector<std::string> interpolations;  ///< of weights: "LINEAR", "STEP", "CUBICSPLINE"
-  bool clamps_weights = false;              ///< to [0, 1]
-  bool empty_names = true;                  ///< targets may be called ""
-  std::optional<int> name_bytes;            ///< of a target's name
-  std::string forbidden_in_names;           ///< characters
+  std::vector<std::string> interpolations = {"LINEAR", "STEP", "CUBICSPLINE"};  ///< of weights
+  bool clamps_weights = false;                                                  ///< to [0, 1]
+  bool empty_names = true;         ///< targets may be called ""
+  std::optional<int> name_bytes;   ///< of a target's name
+  std::string forbidden_in_names;  ///< characters
 
   std::optional<int> gpu_bytes;               ///< a vertex and target
   std::optional<int> gpu_bytes_with_normals;  ///< likewise, where targets have NORMAL

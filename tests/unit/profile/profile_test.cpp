@@ -96,7 +96,8 @@ TEST(Profile, ShippedOnesFitTheSchemaAndEachFieldIsRead) {
 
 TEST(Profile, DefaultsAreThoseOfTheSchema) {
   Json defaults, fields;
-  for (const auto& [name, field] : shipped_schema("profile.schema.json")["properties"].items()) {
+  const Json schema = shipped_schema("profile.schema.json");
+  for (const auto& [name, field] : schema["properties"].items()) {
     if (field.contains("default")) defaults[name] = field["default"];
     if (name != "$schema") fields.push_back(name);
   }
@@ -111,7 +112,8 @@ TEST(Profile, DefaultsAreThoseOfTheSchema) {
     full.*limit = 1;
   }
   Json all;
-  for (const auto& [name, value] : parse_json(profile_to_json(full), "full").items()) {
+  const Json filled = parse_json(profile_to_json(full), "full");
+  for (const auto& [name, value] : filled.items()) {
     all.push_back(name);
   }
   EXPECT_EQ(all, fields);
