@@ -1,9 +1,9 @@
-# Compiles the files of schemas/ into the library, so that it needs none of them at run time.
+# Compiles files of schemas/ and config/profiles into the library, so that it needs none of them at run time.
 #
 #   include(morphbake-embed)
-#   morphbake_embed_schemas(morphbake schemas/recipe.schema.json ...)
+#   morphbake_embed(morphbake schemas schemas/recipe.schema.json ...)
 #
-# Run as a script (-DOUTPUT= -DFILES=a|b) it writes the source file; as a command of the build it does
+# makes them what embedded_schemas() returns. Run as a script (-DKIND=schemas -DOUTPUT= -DFILES=a|b) it writes the source file; as a command of the build it does
 # so whenever one of the files has changed.
 if(CMAKE_SCRIPT_MODE_FILE)
   cmake_minimum_required(VERSION 3.25)
@@ -16,7 +16,7 @@ if(CMAKE_SCRIPT_MODE_FILE)
     string(APPEND source "{\"${name}\", R\"embedded(${text})embedded\"},\n")
   endforeach()
   string(APPEND source "};\n\n}  // namespace\n\n"
-         "std::span<const EmbeddedFile> embedded_schemas() { return files; }\n\n"
+         "std::span<const EmbeddedFile> embedded_${KIND}() { return files; }\n\n"
          "}  // namespace morphbake\n")
   file(WRITE "${OUTPUT}" "${source}")
   return()
@@ -24,12 +24,12 @@ endif()
 
 set(MORPHBAKE_EMBED_SCRIPT ${CMAKE_CURRENT_LIST_FILE})
 
-function(morphbake_embed_schemas target)
-  set(output ${CMAKE_CURRENT_BINARY_DIR}/embedded_schemas.cpp)
+function(morphbake_embed target kind)
+  set(output ${CMAKE_CURRENT_BINARY_DIR}/embedded_${kind}.cpp)
   string(REPLACE ";" "|" files "${ARGN}")
   add_custom_command(
     OUTPUT ${output}
-    COMMAND ${CMAKE_COMMAND} -DOUTPUT=${output} "-DFILES=${files}" -P ${MORPHBAKE_EMBED_SCRIPT}
+    COMMAND ${CMAKE_COMMAND} -DKIND=${kind} -DOUTPUT=${output} "-DFILES=${files}" -P ${MORPHBAKE_EMBED_SCRIPT}
     DEPENDS ${ARGN} ${MORPHBAKE_EMBED_SCRIPT}
     VERBATIM)
   target_sources(${target} PRIVATE ${output})

@@ -13,10 +13,11 @@
 
 namespace morphbake::cli {
 
-/// A command of the program: how it is written, and what it does when it was.
+/// A command of the program: how it is written, and what it does when it was. One of both.
 struct Command {
   CLI::App* parser = nullptr;
   std::function<void(Terminal&)> run;
+  std::function<bool(Terminal&)> judge = {};  ///< exit code 0 when true, 1 when not, 2 for errors
 };
 
 Command add_init(CLI::App& program);
@@ -24,6 +25,7 @@ Command add_bake(CLI::App& program);
 Command add_validate(CLI::App& program);
 Command add_remesh(CLI::App& program);
 Command add_inspect(CLI::App& program);
+Command add_lint(CLI::App& program);
 Command add_preview(CLI::App& program);
 Command add_landmarks(CLI::App& program);
 Command add_config(CLI::App& program);

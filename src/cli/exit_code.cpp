@@ -9,12 +9,13 @@ namespace {
 
 using ModuleExitCode = std::pair<std::string_view, ExitCode>;
 
-constexpr std::array<ModuleExitCode, 24> kExitCodes = {{
+constexpr std::array<ModuleExitCode, 25> kExitCodes = {{
     {"usage", ExitCode::Recipe},
     {"options", ExitCode::Recipe},
     {"landmarks", ExitCode::Recipe},
     {"json", ExitCode::Recipe},
     {"recipe", ExitCode::Recipe},
+    {"profile", ExitCode::Recipe},
     {"schema", ExitCode::Recipe},
     {"files", ExitCode::Recipe},
     {"derive", ExitCode::Recipe},

@@ -30,6 +30,12 @@ refused "name two to six files" preview --compare 1.glb 2.glb 3.glb 4.glb 5.glb 
 refused "--compare" preview a.glb --json
 refused "none.glb" preview --compare none.glb missing.glb
 refused "[files.missing]" inspect none.glb
+refused "add --weights FILE.png" inspect none.glb --animation wave
+refused "FILE is required" lint
+refused "--profile is required" lint none.glb
+refused "[files.missing]" lint none.glb --profile web-three
+refused "[files.missing]" lint none.glb --profile none.json
+refused 'did you mean "web-three"?' lint none.glb --profile web-tree
 refused "none.json" bake none.json
 refused "none.json" validate none.json
 run 2 --log loud config

@@ -18,8 +18,8 @@ const recipe = {
   version: 1, name: 'ages', units: 'scene', sources, hold: 'none',
   regions: { below: { spatial: { half_space: { normal: [0, 1, 0], offset: { keys: [{ time: 0, value: -10 }, { time: 2, value: 11 }] } }, width: 3 } } },
   timeline: { fps: 60, tracks: ['old', 'baby'].map((name) => ({ name, region: 'below', to: name, begin: 0, end: 2, ease: 'linear' })) },
-  outputs: [{ file: 'frames.glb', targets: 'frames' }, { file: 'float.glb', targets: 'basis' },
-    { file: 'small.glb', targets: 'basis', encoding: 'quantised', compression: 'meshopt' }] };
+  outputs: [{ file: 'frames.glb', targets: 'frames' }, { file: 'float.glb', targets: 'basis', encoding: 'float' },
+    { file: 'small.glb', targets: 'basis', encoding: 'meshopt' }] };
 
 /** Base and targets of the only primitive in the scene, whose node is scaled alike in all directions and not turned. */
 async function openMorph(file) {

@@ -1,9 +1,9 @@
 # Every code in the source has a line in docs/problems.md, and the other way round.
 cd "$(dirname "$0")/../.." || exit 1
-modules='usage|files|json|recipe|sources|landmarks|options|gltf|correspondence|connectivity|linear|solve|derive|transition|basis|export|output|image|preview|memory'
+modules='usage|files|json|profile|recipe|sources|landmarks|options|gltf|correspondence|connectivity|linear|solve|derive|transition|basis|export|output|image|preview|memory'
 in_source=$(grep -rhoE "\"($modules)\.[a-z-]+\"" src --include=*.cpp | tr -d '"' | grep -vE '\.(json|md|[a-z-]*-)$' | sort -u)
 # Codes that are put together from a prefix.
-for prefix in recipe landmarks options; do
+for prefix in recipe landmarks options profile; do
   in_source+=$(printf '\n%s' $prefix.{unknown-field,missing-field,wrong-type,out-of-range,bad-value})
 done
 in_source+=$(printf '\n%s' gltf.{missing-field,wrong-type,out-of-range,bad-value})

@@ -10,6 +10,7 @@
 #include "morphbake/connectivity/morphable_mesh.h"
 #include "morphbake/diagnostics/problem.h"
 #include "morphbake/gltf/animated_mesh.h"
+#include "morphbake/gltf/mesh_survey.h"
 #include "morphbake/gltf/write_morph.h"
 #include "morphbake/sources/source_surface.h"
 
@@ -86,6 +87,7 @@ void read_as_source(const GltfFile& file, const MeshChoice& choice, bool is_play
 
 void read_all(const std::string& bytes, const std::filesystem::path& name) {
   const GltfFile file = open_gltf_bytes(bytes, name);
+  succeeds([&] { survey_meshes(file); });
   for (const MeshChoice& choice : choices()) {
     const bool is_playable = succeeds([&] { read_animated_mesh(file, choice); });
     succeeds([&] { read_as_source(file, choice, is_playable); });

@@ -7,7 +7,7 @@
 
 #include "morphbake/gltf/compress_meshopt.h"
 #include "morphbake/gltf/order_vertices.h"
-#include "morphbake/gltf/quantise_mesh.h"
+#include "morphbake/gltf/quantize_mesh.h"
 #include "morphbake/version.h"
 
 namespace morphbake {
@@ -27,9 +27,9 @@ std::vector<float> mean_weights(const MeshMorph& morph) {
 }
 
 /// Where bytes count, integers are as coarse as a fifth of the error that is allowed anyway.
-QuantisedSteps steps_of(const SourceMesh& first, const Output& output, double diagonal,
+QuantizedSteps steps_of(const SourceMesh& first, const Output& output, double diagonal,
                         std::vector<float> means) {
-  if (output.compression == Compression::None) return {0, 16, std::move(means)};
+  if (output.encoding == Encoding::Quantized) return {0, 16, std::move(means)};
   const Eigen::Matrix3d to_scene = first.geometry.to_scene.topLeftCorner<3, 3>();
   const double largest_scale = to_scene.colwise().norm().maxCoeff();
   return {largest_scale > 0 ? 0.2 * output.max_error * diagonal / largest_scale : 0, 8,
@@ -45,18 +45,19 @@ EncodedOutput encode_output(const SourceMesh& first, const Output& output, doubl
   const std::vector<float> means = mean_weights(morph);
   morph = {};
   const auto take_file = [&] { return open_gltf_bytes(std::move(encoded.glb), output.file); };
-  if (output.compression == Compression::Meshopt) {
+  const bool is_small = output.encoding == Encoding::Meshopt;
+  if (is_small) {
     OrderedMorph ordered = order_vertices(take_file(), encoded.node);
     encoded.glb = std::move(ordered.glb);
     encoded.old_vertex = std::move(ordered.old_vertex);
   }
-  if (output.encoding == Encoding::Quantised) {
-    EncodedMorph quantised =
-        quantise_mesh(take_file(), encoded.node, steps_of(first, output, diagonal, means));
-    encoded.glb = std::move(quantised.glb);
-    encoded.node = quantised.node;
+  if (is_small || output.encoding == Encoding::Quantized) {
+    EncodedMorph quantized =
+        quantize_mesh(take_file(), encoded.node, steps_of(first, output, diagonal, means));
+    encoded.glb = std::move(quantized.glb);
+    encoded.node = quantized.node;
   }
-  if (output.compression == Compression::Meshopt) encoded.glb = compress_meshopt(take_file());
+  if (is_small) encoded.glb = compress_meshopt(take_file());
   return encoded;
 }
 

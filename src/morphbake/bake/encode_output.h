@@ -18,7 +18,7 @@ struct EncodedOutput {
 
 /// @param first     the source into whose file the morph goes
 /// @param diagonal  of the first frame, scene units
-/// @throws BakeError "output.too-large", "export.cannot-quantise"
+/// @throws BakeError "output.too-large", "export.cannot-quantize"
 EncodedOutput encode_output(const SourceMesh& first, const Output& output, double diagonal,
                             MeshMorph morph);
 

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "morphbake/bake/encode_output.h"
+#include "morphbake/lint/lint.h"
 #include "morphbake/mesh/measures.h"
 
 namespace morphbake {
@@ -180,6 +181,7 @@ MorphBasis smallest_basis(const FrameSource& frames, double tolerance,
 /// What an output is made from, beside the recipe.
 struct OutputInputs {
   const Output& output;
+  TargetKind kind;
   const BakeOptions& options;
   const Observer& observer;
 };
@@ -188,7 +190,7 @@ struct OutputInputs {
 MorphBasis basis_of(const SolvedTimeline& timeline, const Timeline& of, const OutputInputs& inputs,
                     double tolerance) {
   const std::vector<Clip>& clips = inputs.output.clips;
-  switch (kind_of(inputs.output, timeline)) {
+  switch (inputs.kind) {
     case TargetKind::Tracks:
       return track_basis(timeline.shapes, *timeline.separable, of, clips, inputs.options.basis);
     case TargetKind::Keyframes:
@@ -207,7 +209,7 @@ MorphWithMotions make_animated_output(const SolvedRecipe& solved, const OutputIn
                                       double tolerance) {
   const Timeline& timeline = solved.recipe.timeline;
   const SolvedTimeline& of = solved.timeline;
-  const bool by_track = kind_of(inputs.output, of) == TargetKind::Tracks;
+  const bool by_track = inputs.kind == TargetKind::Tracks;
   MorphWithMotions made;
   made.timeline = std::make_unique<ReferenceMotion>(watched(
       by_track ? continuous_motion(of.shapes, *of.separable, timeline) : stepped_motion(of.frames),
@@ -222,8 +224,7 @@ MorphWithMotions make_animated_output(const SolvedRecipe& solved, const OutputIn
   const MorphBasis basis = basis_of(of, timeline, inputs, tolerance);
   made.kind = name_of(basis.kind);
   // Integers cannot exceed 1. Where they do not have to be small, such targets may stay floats.
-  const bool is_small = inputs.output.encoding == Encoding::Quantised &&
-                        inputs.output.compression == Compression::Meshopt;
+  const bool is_small = inputs.output.encoding == Encoding::Meshopt;
   made.morph = make_mesh_morph(solved.first, solved.mesh, basis, solved.groups, made.motions,
                                is_small ? TargetRange::Unit : TargetRange::Any);
   return made;
@@ -319,20 +320,24 @@ WrittenOutput fewest_targets(const Output& output, double failing, double keepin
   return kept;
 }
 
+/// How many targets the profile's client reads of a mesh; none: no limit is known.
+std::optional<int> target_limit(const SolvedRecipe& solved, const Output& output) {
+  if (!output.profile) return {};
+  return most_targets(*output.profile, solved.groups.count > 0);
+}
+
 /// The output with as few targets as keep its bounds; where they are not to be kept, with as many
 /// as frames give or the tolerance reaches.
-WrittenOutput write_animated_output(const SolvedRecipe& solved, const OutputInputs& inputs) {
+WrittenOutput write_fewest(const SolvedRecipe& solved, const OutputInputs& inputs) {
   constexpr double kTighter = 0.6;
   constexpr int kMostTightenings = 20;  // 4e-5 of the bound
   const Output& output = inputs.output;
-  const TargetKind kind = kind_of(output, solved.timeline);
   const std::size_t frames = solved.timeline.frames.times.size();
   const auto write = [&](double tolerance) {
     return write_output(solved, output, make_animated_output(solved, inputs, tolerance));
   };
   double tolerance = output.max_error * bounding_diagonal(solved.timeline.frames.positions(0));
   WrittenOutput written = write(tolerance);
-  if (kind == TargetKind::Tracks || kind == TargetKind::Frames) return written;
   for (int i = 0; i < kMostTightenings && !keeps_bounds(output, written.report); ++i) {
     if (written.report.targets.size() + 1 >= frames) break;
     const double failing = tolerance;
@@ -345,19 +350,81 @@ WrittenOutput write_animated_output(const SolvedRecipe& solved, const OutputInpu
   return written;
 }
 
+/// `auto` takes tracks unless the profile's client reads fewer.
+WrittenOutput write_animated_output(const SolvedRecipe& solved, OutputInputs inputs) {
+  const bool is_exact = inputs.kind == TargetKind::Tracks || inputs.kind == TargetKind::Frames;
+  if (!is_exact) return write_fewest(solved, inputs);
+  WrittenOutput written =
+      write_output(solved, inputs.output, make_animated_output(solved, inputs, 0));
+  const std::optional<int> limit = target_limit(solved, inputs.output);
+  const bool fits = !limit || written.all_targets <= static_cast<std::size_t>(*limit);
+  if (fits || inputs.output.targets != TargetKind::Auto) return written;
+  inputs.kind = TargetKind::Auto;
+  return write_fewest(solved, inputs);
+}
+
+/// What would fit a client that reads so many targets.
+std::string fitting_option(const SolvedRecipe& solved, const OutputInputs& inputs,
+                           std::size_t most) {
+  constexpr double kLooser = 1.3;
+  constexpr int kMostLoosenings = 20;  // 190 times the bound
+  double max_error = inputs.output.max_error;
+  const double diagonal = bounding_diagonal(solved.timeline.frames.positions(0));
+  for (int i = 0; i < kMostLoosenings; ++i, max_error *= kLooser) {
+    const MorphBasis basis = smallest_basis(solved.timeline.frames, max_error * diagonal,
+                                            inputs.output.clips, inputs.observer);
+    if (basis.targets.size() > most) continue;
+    const std::string kind = name_of(basis.kind);
+    return fmt::format("\"targets\": \"{}\" with \"max_error\": {:.2g} needs {}", kind, max_error,
+                       basis.targets.size());
+  }
+  return "choose a shorter timeline, or a profile of another client";
+}
+
+/// Looks at what was written as `morphbake lint` does.
+///
+/// @throws BakeError "export.breaks-profile"
+void check_profile(const SolvedRecipe& solved, std::size_t index, const OutputInputs& inputs,
+                   const WrittenOutput& written) {
+  const Output& output = inputs.output;
+  if (!output.profile) return;
+  const Profile& profile = *output.profile;
+  const LintReport report = lint(open_gltf_bytes(written.bytes, output.file), profile,
+                                 {.node = written.node}, {}, inputs.observer);
+  const std::optional<int> limit = target_limit(solved, output);
+  std::vector<Problem> problems;
+  for (const Finding& finding : report.findings) {
+    if (finding.severity != FindingSeverity::Error) continue;
+    const std::size_t added = written.report.targets.size();
+    const std::size_t own = written.all_targets - added;
+    const bool is_of_count = finding.rule == std::string("too-many-targets") && limit &&
+                             static_cast<std::size_t>(*limit) > own;
+    problems.push_back(
+        {Severity::Error, "export.breaks-profile",
+         location_in(solved.recipe, fmt::format("/outputs/{}/profile", index)),
+         fmt::format("{} does not read {}: {} at {}", profile.title,
+                     output.file.filename().string(), finding.message, finding.pointer),
+         is_of_count ? fitting_option(solved, inputs, static_cast<std::size_t>(*limit) - own)
+                     : finding.right});
+  }
+  if (!problems.empty()) throw BakeError(std::move(problems));
+}
+
 }  // namespace
 
 StagedOutput stage_output(const SolvedRecipe& solved, std::size_t index, const BakeOptions& options,
                           const Observer& observer, PendingOutputs& outputs) {
   const Output& output = solved.recipe.outputs[index];
   warn_of_skin(solved, observer);
+  const OutputInputs inputs{output, kind_of(output, solved.timeline), options, observer};
   WrittenOutput written =
       output.still
           ? write_output(solved, output, make_still_output(solved, *output.still, options.solve))
-          : write_animated_output(solved, {output, options, observer});
+          : write_animated_output(solved, inputs);
   const bool has_targets = !written.report.targets.empty();
   if (!output.still && !has_targets) warn_of_no_targets(solved.recipe, index, observer);
-  if (has_targets) warn_of_targets(solved, index, written.all_targets, observer);
+  if (has_targets && !output.profile) warn_of_targets(solved, index, written.all_targets, observer);
+  check_profile(solved, index, inputs, written);
   check_positions(solved.recipe, index, written.report, observer);
   check_normals(solved.recipe, index, written.report.normals, observer);
   return {std::move(written.report), outputs.stage(output.file, written.bytes), written.node};

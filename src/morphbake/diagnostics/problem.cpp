@@ -4,6 +4,8 @@
 
 #include <utility>
 
+#include "morphbake/diagnostics/shown_text.h"
+
 namespace morphbake {
 namespace {
 
@@ -14,20 +16,6 @@ std::string joined(const std::vector<Problem>& problems) {
     text += format_problem(problem);
   }
   return text;
-}
-
-/// File names and fields may hold anything; a terminal must not act on it.
-std::string without_control_characters(const std::string& text) {
-  std::string shown;
-  for (const char letter : text) {
-    const auto byte = static_cast<unsigned char>(letter);
-    if (byte < 0x20 || byte == 0x7F) {
-      shown += fmt::format("\\u{:04x}", byte);
-    } else {
-      shown += letter;
-    }
-  }
-  return shown;
 }
 
 }  // namespace

@@ -151,15 +151,6 @@ AnimationCurve constant_weights(const Eigen::VectorXd& rest) {
   return curve;
 }
 
-/// The first channel of an animation that moves the weights of `node`, or none.
-const tinygltf::AnimationChannel* weights_channel(const tinygltf::Animation& animation, int node) {
-  const auto found =
-      std::ranges::find_if(animation.channels, [node](const tinygltf::AnimationChannel& channel) {
-        return channel.target_node == node && channel.target_path == "weights";
-      });
-  return found == animation.channels.end() ? nullptr : &*found;
-}
-
 /// The last animations that move the weights of `node`, in their order: a bake appends its own to
 /// those of the source.
 std::vector<AnimationCurve> last_weights(const GltfDocument& document, int node, int targets,

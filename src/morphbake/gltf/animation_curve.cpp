@@ -82,6 +82,14 @@ const tinygltf::AnimationSampler& animation_sampler(const GltfDocument& document
   return samplers[static_cast<std::size_t>(sampler)];
 }
 
+const tinygltf::AnimationChannel* weights_channel(const tinygltf::Animation& animation, int node) {
+  const auto found =
+      std::ranges::find_if(animation.channels, [node](const tinygltf::AnimationChannel& channel) {
+        return channel.target_node == node && channel.target_path == "weights";
+      });
+  return found == animation.channels.end() ? nullptr : &*found;
+}
+
 AnimationCurve read_curve(const GltfDocument& document, int animation, int sampler, int columns) {
   const tinygltf::AnimationSampler& source = animation_sampler(document, animation, sampler);
   const std::string pointer = sampler_pointer(animation, sampler);

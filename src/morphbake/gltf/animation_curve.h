@@ -13,6 +13,9 @@ namespace morphbake {
 const tinygltf::AnimationSampler& animation_sampler(const GltfDocument& document, int animation,
                                                     int sampler);
 
+/// The first channel of an animation that moves the weights of `node`, or none.
+const tinygltf::AnimationChannel* weights_channel(const tinygltf::Animation& animation, int node);
+
 /// The numbers of a sampler.
 ///
 /// @param columns  numbers a key

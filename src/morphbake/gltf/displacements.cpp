@@ -75,7 +75,8 @@ int Displacements::zeros(Eigen::Index vertices, const std::string& type) {
   return entry->second;
 }
 
-/// Clients disagree about accessors without any bytes, so one of the zeros is told.
+/// Clients disagree about accessors without any bytes, so one of the zeros is told; and Babylon.js
+/// about those that share them, so each has its own.
 int Displacements::append_zeros(Eigen::Index vertices, const std::string& type) {
   Json accessor = {{"componentType", kFloatComponent}, {"count", vertices}, {"type", type}};
   if (type == "VEC3") accessor["min"] = accessor["max"] = {0.0, 0.0, 0.0};
@@ -86,16 +87,13 @@ int Displacements::append_zeros(Eigen::Index vertices, const std::string& type) 
         append_view(draft_, bytes.data(), bytes.size() * sizeof(float), BufferUse::Vertices);
     return append_accessor(draft_, std::move(accessor));
   }
-  if (zero_index_ < 0) {
-    constexpr unsigned char kFirst = 0;
-    constexpr float kZeros[4] = {0, 0, 0, 0};
-    zero_index_ = append_view(draft_, &kFirst, sizeof kFirst, BufferUse::Other);
-    zero_value_ = append_view(draft_, kZeros, sizeof kZeros, BufferUse::Other);
-  }
-  accessor["sparse"] = {
-      {"count", 1},
-      {"indices", {{"bufferView", zero_index_}, {"componentType", kUnsignedByte}}},
-      {"values", {{"bufferView", zero_value_}}}};
+  constexpr unsigned char kFirst = 0;
+  constexpr float kZeros[4] = {0, 0, 0, 0};
+  const int index = append_view(draft_, &kFirst, sizeof kFirst, BufferUse::Other);
+  const int value = append_view(draft_, kZeros, sizeof kZeros, BufferUse::Other);
+  accessor["sparse"] = {{"count", 1},
+                        {"indices", {{"bufferView", index}, {"componentType", kUnsignedByte}}},
+                        {"values", {{"bufferView", value}}}};
   return append_accessor(draft_, std::move(accessor));
 }
 

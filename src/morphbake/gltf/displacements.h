@@ -44,7 +44,6 @@ class Displacements {
   GlbDraft& draft_;
   bool may_be_sparse_;
   std::map<std::pair<Eigen::Index, std::string>, int> zeros_;
-  int zero_index_ = -1, zero_value_ = -1;  // bufferViews
 };
 
 }  // namespace morphbake

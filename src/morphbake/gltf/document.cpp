@@ -188,6 +188,10 @@ tinygltf::Model parse_model(GltfDocument& document) {
 void unpack(GltfDocument& document) {
   document.glb = unpacked_glb(document);
   document.named.clear();
+  for (const char* list : {"accessors", "bufferViews", "extensionsUsed"}) {
+    const auto found = document.json.find(list);
+    if (found != document.json.end()) document.packed[list] = std::move(*found);
+  }
   document.json = parse_source_json(document, json_chunk(document, document.glb));
   document.buffers.clear();
   const std::string_view binary = binary_chunk(document, document.glb);

@@ -21,7 +21,8 @@ using Bytes = std::vector<unsigned char>;
 
 struct GltfDocument {
   std::filesystem::path file;
-  Json json;                              ///< as in the file: what is kept is kept from here
+  Json json;    ///< as in the file: what is kept is kept from here
+  Json packed;  ///< accessors, bufferViews, extensionsUsed before geometry was unpacked; else null
   tinygltf::Model model;                  ///< the same, typed, with images but without buffers
   std::string glb;                        ///< the file's bytes, or those that it was unpacked to
   std::vector<Bytes> named;               ///< of the buffers that have a URI

@@ -102,6 +102,19 @@ MeshSize mesh_size(const GltfDocument& document, const tinygltf::Primitive& prim
   }
 }
 
+/// @param pointer  of the primitive that is too much
+[[noreturn]] void refuse_mesh(const GltfDocument& document, const std::string& pointer,
+                              const MeshSize& size, const MeshSize& limit) {
+  const bool are_rows = size.elements <= limit.elements;
+  fail_at(document, pointer, "gltf.too-large",
+          fmt::format(
+              "the mesh asks for more than {} {}, out of {} bytes",
+              are_rows ? limit.rows : limit.elements,
+              are_rows ? "rows of targets and joints together" : "vertices and indices together",
+              buffer_bytes(document)),
+          "primitives or targets that share one long accessor need one of their own each");
+}
+
 }  // namespace
 
 void check_text_size(const GltfDocument& document) {
@@ -190,25 +203,22 @@ std::size_t most_curve_numbers(const GltfDocument& document) {
   return std::max(2 * buffer_bytes(document), kFewestRows);
 }
 
-void check_mesh_size(const GltfDocument& document, int mesh) {
+void check_mesh_size(const GltfDocument& document, int mesh) { check_mesh_sizes(document, {mesh}); }
+
+void check_mesh_sizes(const GltfDocument& document, const std::vector<int>& meshes) {
   const std::size_t bytes = buffer_bytes(document);
   const MeshSize limit{std::max(bytes, kFewestElements), std::max(bytes, kFewestRows)};
-  const auto& primitives = document.model.meshes[static_cast<std::size_t>(mesh)].primitives;
   MeshSize size;
-  for (std::size_t p = 0; p < primitives.size(); ++p) {
-    const MeshSize added = mesh_size(document, primitives[p]);
-    size.elements += added.elements;
-    size.rows += added.rows;
-    // Counts are below 2^32 each, and JSON has 2^21 values: with a test a primitive no overflow.
-    if (size.elements <= limit.elements && size.rows <= limit.rows) continue;
-    const bool are_rows = size.elements <= limit.elements;
-    fail_at(document, primitive_pointer(mesh, p), "gltf.too-large",
-            fmt::format(
-                "the mesh asks for more than {} {}, out of {} bytes",
-                are_rows ? limit.rows : limit.elements,
-                are_rows ? "rows of targets and joints together" : "vertices and indices together",
-                bytes),
-            "primitives or targets that share one long accessor need one of their own each");
+  for (const int mesh : meshes) {
+    const auto& primitives = document.model.meshes[static_cast<std::size_t>(mesh)].primitives;
+    for (std::size_t p = 0; p < primitives.size(); ++p) {
+      const MeshSize added = mesh_size(document, primitives[p]);
+      size.elements += added.elements;
+      size.rows += added.rows;
+      // Counts are below 2^32 each, and JSON has 2^21 values: with a test a primitive no overflow.
+      if (size.elements <= limit.elements && size.rows <= limit.rows) continue;
+      refuse_mesh(document, primitive_pointer(mesh, p), size, limit);
+    }
   }
 }
 

@@ -4,6 +4,7 @@
 // that all read the same bytes, or none at all, could ask for any amount.
 
 #include <cstddef>
+#include <vector>
 
 #include "morphbake/gltf/document.h"
 
@@ -41,6 +42,9 @@ void check_buffer_sizes(const GltfDocument& document, std::size_t file_bytes);
 /// million.
 /// @throws BakeError "gltf.too-large"
 void check_mesh_size(const GltfDocument& document, int mesh);
+
+/// As check_mesh_size, of several meshes together.
+void check_mesh_sizes(const GltfDocument& document, const std::vector<int>& meshes);
 
 /// Numbers that reading a pose may take of animation curves: those of all channels, since many
 /// could name the same. Twice as many as the buffers have bytes, or 16 million.

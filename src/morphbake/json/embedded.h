@@ -13,4 +13,7 @@ struct EmbeddedFile {
 /// The files of schemas/, compiled into the library (cmake/morphbake-embed.cmake).
 std::span<const EmbeddedFile> embedded_schemas();
 
+/// The files of config/profiles, likewise.
+std::span<const EmbeddedFile> embedded_profiles();
+
 }  // namespace morphbake

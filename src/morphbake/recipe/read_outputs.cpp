@@ -58,6 +58,39 @@ NormalBounds read_normal_bounds(const Json& output) {
   return bounds;
 }
 
+/// The profile that an output names: a shipped one, or a file beside the recipe.
+std::optional<Profile> read_output_profile(Reading& reading, const Json& output,
+                                           const std::string& pointer) {
+  if (!output.contains("profile")) return {};
+  const std::string name = output["profile"].get<std::string>();
+  const fs::path file = reading.folder / name;
+  try {
+    return read_profile(name.ends_with(".json") ? file.string() : name);
+  } catch (const BakeError& error) {
+    for (const Problem& problem : error.problems()) {
+      if (problem.code == "profile.unknown-name") {
+        complain(reading, problem.code, pointer + "/profile", problem.message, problem.hint);
+      } else {  // in the profile's own file
+        reading.problems.push_back(problem);
+      }
+    }
+  }
+  return {};
+}
+
+/// What is asked for, else what the profile's client reads best, else what loses nothing.
+Encoding read_encoding(Reading& reading, const Json& output, const std::string& pointer,
+                       const std::optional<Profile>& profile) {
+  const std::string name = output.value("encoding", "auto");
+  if (name == "auto") return profile ? profile->encoding : Encoding::Sparse;
+  const Encoding encoding = encoding_named(name);
+  if (!profile || allows(*profile, encoding)) return encoding;
+  complain(reading, "recipe.breaks-profile", pointer + "/encoding",
+           fmt::format("{} does not read \"{}\"", profile->title, name),
+           fmt::format("\"{}\" is what it reads best", name_of(profile->encoding)));
+  return encoding;
+}
+
 TargetKind read_targets(Reading& reading, const Json& output, const std::string& pointer) {
   const TargetKind kind = target_kind_named(output.value("targets", "auto"));
   const Timeline& timeline = reading.recipe.timeline;
@@ -82,8 +115,8 @@ Output read_output(Reading& reading, const Json& json, const std::string& pointe
   output.targets = read_targets(reading, json, pointer);
   output.max_error = json.value("max_error", output.max_error);
   output.max_normal_error = read_normal_bounds(json);
-  if (json.value("encoding", "") == "quantised") output.encoding = Encoding::Quantised;
-  if (json.value("compression", "") == "meshopt") output.compression = Compression::Meshopt;
+  output.profile = read_output_profile(reading, json, pointer);
+  output.encoding = read_encoding(reading, json, pointer, output.profile);
   output.unmet_is_error = json.value("unmet", "") != "warning";
   if (!json.contains("still")) {
     output.clips = read_clips(reading, json, pointer);

@@ -12,6 +12,7 @@
 
 #include "morphbake/diagnostics/problem.h"
 #include "morphbake/gltf/mesh_choice.h"
+#include "morphbake/profile/profile.h"
 #include "morphbake/recipe/derived_source.h"
 #include "morphbake/recipe/landmark.h"
 #include "morphbake/recipe/region.h"
@@ -171,17 +172,6 @@ struct Clip {
   double end = 0;    ///< seconds, > begin
 };
 
-/// What numbers of a mesh are in its file.
-enum class Encoding {
-  Float,      ///< 32-bit floats
-  Quantised,  ///< 16-bit integers (KHR_mesh_quantization)
-};
-
-enum class Compression {
-  None,
-  Meshopt,  ///< EXT_meshopt_compression
-};
-
 struct Output {
   std::filesystem::path file;  ///< absolute, .glb
   std::vector<Clip> clips;     ///< one at least, but for stills
@@ -189,8 +179,8 @@ struct Output {
   std::optional<Still> still;
   double max_error = 0.001;  ///< of positions, as a fraction of the first frame's diagonal
   NormalBounds max_normal_error;
-  Encoding encoding = Encoding::Float;
-  Compression compression = Compression::None;
+  std::optional<Profile> profile;  ///< what it must keep to
+  Encoding encoding = Encoding::Sparse;
   bool unmet_is_error = true;  ///< whether a bound that is not kept stops the bake
 };
 

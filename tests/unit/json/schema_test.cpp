@@ -12,7 +12,7 @@ namespace morphbake {
 namespace {
 
 const std::vector<std::string> names = {"recipe.schema.json", "landmarks.schema.json",
-                                        "options.schema.json"};
+                                        "options.schema.json", "profile.schema.json"};
 
 /// Calls `each(node, pointer)` for every sub-schema.
 void for_each_node(const Json& node, const std::string& pointer,

@@ -14,7 +14,7 @@ struct EncodedMorph {
 };
 
 /// How fine integers are.
-struct QuantisedSteps {
+struct QuantizedSteps {
   double position =
       0;  ///< mesh space, where 16 bits are finer than that: few numbers compress well
   int normal_bits = 16;  ///< 16 or 8
@@ -29,8 +29,8 @@ struct QuantisedSteps {
 /// node of the mesh has: one of its own, so that nothing else is scaled. Displacements of normals
 /// stay floats where one exceeds 1, since integers cannot and weights are those of positions.
 /// @param file  as write_morph_glb() writes it
-/// @throws BakeError "export.cannot-quantise" when a skin or instances place the mesh;
+/// @throws BakeError "export.cannot-quantize" when a skin or instances place the mesh;
 ///         "output.too-large"
-EncodedMorph quantise_mesh(const GltfFile& file, int node, const QuantisedSteps& steps = {});
+EncodedMorph quantize_mesh(const GltfFile& file, int node, const QuantizedSteps& steps = {});
 
 }  // namespace morphbake

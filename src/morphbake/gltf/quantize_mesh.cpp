@@ -1,4 +1,4 @@
-#include "morphbake/gltf/quantise_mesh.h"
+#include "morphbake/gltf/quantize_mesh.h"
 
 #include <fmt/core.h>
 
@@ -31,14 +31,14 @@ struct Cube {
 };
 
 /// A mesh on its way to integers.
-struct Quantising {
+struct Quantizing {
   const GltfDocument& document;
   GlbDraft draft;
   References references;
   std::size_t mesh = 0;
 };
 
-Json& primitives_of(Quantising& work) {
+Json& primitives_of(Quantizing& work) {
   return work.draft.json.at("meshes").at(work.mesh).at("primitives");
 }
 
@@ -57,11 +57,11 @@ void for_each_accessor(Json& primitives, const char* attribute, const Visit& vis
   }
 }
 
-Float3s rows_of(const Quantising& work, int accessor) {
+Float3s rows_of(const Quantizing& work, int accessor) {
   return read_float3s(work.document, accessor, child_pointer("/meshes", work.mesh));
 }
 
-Cube cube_about(Quantising& work) {
+Cube cube_about(Quantizing& work) {
   Eigen::AlignedBox3f box;
   float farthest = 0;
   for_each_accessor(primitives_of(work), "POSITION", [&](const Json& accessor, bool is_moved) {
@@ -143,7 +143,7 @@ int append_sparse(GlbDraft& draft, const Integers& rows, int bytes,
 }
 
 /// An attribute on its way to integers.
-struct QuantisedAttribute {
+struct QuantizedAttribute {
   const char* name = nullptr;
   int bytes = 2;
   /// Rows as fractions within [-1, 1], or nothing where they stay floats.
@@ -155,7 +155,7 @@ struct QuantisedAttribute {
 ///
 /// @param fractions  of its rows
 /// @return           what is left of them when they are rounded
-Float3s quantise_accessor(Quantising& work, QuantisedAttribute& attribute, Json& accessor,
+Float3s quantize_accessor(Quantizing& work, QuantizedAttribute& attribute, Json& accessor,
                           const Float3s& fractions, const std::vector<std::uint32_t>& moving,
                           bool is_moved) {
   const int old = accessor.get<int>();
@@ -173,7 +173,7 @@ Float3s quantise_accessor(Quantising& work, QuantisedAttribute& attribute, Json&
 }
 
 /// The targets' first, so that the base can take what they lose on average.
-void quantise_primitive(Quantising& work, QuantisedAttribute& attribute, Json& primitive,
+void quantize_primitive(Quantizing& work, QuantizedAttribute& attribute, Json& primitive,
                         const std::vector<float>& mean_weights) {
   Json& attributes = primitive["attributes"];
   if (!attributes.contains(attribute.name)) return;
@@ -190,7 +190,7 @@ void quantise_primitive(Quantising& work, QuantisedAttribute& attribute, Json& p
     const std::optional<Float3s> fractions = attribute.fractions(rows, true);
     if (!fractions) continue;
     const Float3s left =
-        quantise_accessor(work, attribute, target[attribute.name], *fractions, moving, true);
+        quantize_accessor(work, attribute, target[attribute.name], *fractions, moving, true);
     const std::size_t from_end = targets - t;
     if (from_end <= mean_weights.size()) {
       lost += mean_weights[mean_weights.size() - from_end] * left;
@@ -200,17 +200,17 @@ void quantise_primitive(Quantising& work, QuantisedAttribute& attribute, Json& p
   if (!fractions) return;
   const bool is_own = work.references.accessors.at(base.get<std::size_t>()) == 1;
   if (is_own) *fractions += lost;  // what others show too stays as it is
-  quantise_accessor(work, attribute, base, *fractions, {}, false);
+  quantize_accessor(work, attribute, base, *fractions, {}, false);
 }
 
 /// Where nothing but the node's own transform places the mesh, a node below it may scale it.
-void require_free(const Quantising& work, std::size_t node) {
+void require_free(const Quantizing& work, std::size_t node) {
   const Json& json = work.draft.json["nodes"][node];
   const bool is_instanced =
       json.contains("extensions") && json["extensions"].contains("EXT_mesh_gpu_instancing");
   if (!json.contains("skin") && !is_instanced) return;
   fail_at(work.document, fmt::format("/nodes/{}/{}", node, is_instanced ? "extensions" : "skin"),
-          "export.cannot-quantise",
+          "export.cannot-quantize",
           fmt::format("{} place the mesh, which no node can scale for itself",
                       is_instanced ? "instances" : "joints"),
           "write \"encoding\": \"float\" for this output");
@@ -239,7 +239,7 @@ void redirect_weights(Json& json, std::size_t from, std::size_t to) {
 }
 
 /// Hangs the mesh of a node on a new one below it. @return the new one
-std::size_t lower_mesh(Quantising& work, std::size_t node, const Cube& cube) {
+std::size_t lower_mesh(Quantizing& work, std::size_t node, const Cube& cube) {
   Json& nodes = work.draft.json["nodes"];
   const std::size_t lowered = nodes.size();
   Json below = {{"mesh", work.mesh}};
@@ -257,9 +257,9 @@ std::size_t lower_mesh(Quantising& work, std::size_t node, const Cube& cube) {
 
 }  // namespace
 
-EncodedMorph quantise_mesh(const GltfFile& file, int node, const QuantisedSteps& steps) {
+EncodedMorph quantize_mesh(const GltfFile& file, int node, const QuantizedSteps& steps) {
   const GltfDocument& document = *file;
-  Quantising work{document, join_buffers(document.json, document.buffers), {}, 0};
+  Quantizing work{document, join_buffers(document.json, document.buffers), {}, 0};
   work.draft.shown = document.file;
   work.references = references_in(work.draft);
   const auto shown = static_cast<std::size_t>(node);
@@ -272,14 +272,14 @@ EncodedMorph quantise_mesh(const GltfFile& file, int node, const QuantisedSteps&
   }
   Cube cube = cube_about(work);
   cube.half = std::max(cube.half, static_cast<float>(steps.position * largest_of(2)));
-  QuantisedAttribute positions{"POSITION",
+  QuantizedAttribute positions{"POSITION",
                                2,
                                [&](const Float3s& rows, bool is_moved) -> std::optional<Float3s> {
                                  if (is_moved) return Float3s(rows / cube.half);
                                  return Float3s((rows.rowwise() - cube.centre) / cube.half);
                                },
                                {}};
-  QuantisedAttribute normals{"NORMAL",
+  QuantizedAttribute normals{"NORMAL",
                              steps.normal_bits / 8,
                              [](const Float3s& rows, bool) -> std::optional<Float3s> {
                                constexpr float kRounding = 1e-6F;  // of unit normals
@@ -288,8 +288,8 @@ EncodedMorph quantise_mesh(const GltfFile& file, int node, const QuantisedSteps&
                              },
                              {}};
   for (Json& primitive : primitives_of(work)) {
-    quantise_primitive(work, positions, primitive, steps.mean_weights);
-    quantise_primitive(work, normals, primitive, steps.mean_weights);
+    quantize_primitive(work, positions, primitive, steps.mean_weights);
+    quantize_primitive(work, normals, primitive, steps.mean_weights);
   }
   EncodedMorph encoded;
   for (const std::size_t n : users) {

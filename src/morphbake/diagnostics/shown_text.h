@@ -1,0 +1,11 @@
+#pragma once
+
+#include <string>
+
+namespace morphbake {
+
+/// `text` with \u001b and the like for control characters: file names and fields may hold anything,
+/// and a terminal must not act on it.
+std::string without_control_characters(const std::string& text);
+
+}  // namespace morphbake
