@@ -9,6 +9,8 @@
 #include <utility>
 
 #include "morphbake/bake/encode_output.h"
+#include "morphbake/bake/output_bounds.h"
+#include "morphbake/bake/output_morph.h"
 #include "morphbake/lint/lint.h"
 #include "morphbake/mesh/measures.h"
 
@@ -17,35 +19,6 @@ namespace {
 
 // What three.js and Babylon.js read at most.
 constexpr std::size_t kEngineTargetLimit = 255;
-
-Positions still_positions(const SolvedRecipe& solved, const Still& still,
-                          const SolveOptions& options) {
-  const Recipe& recipe = solved.recipe;
-  if (const double* time = std::get_if<double>(&still.at)) {
-    return position_at(recipe, solved.mesh, solved.regions, solved.timeline, *time);
-  }
-  const State& state = recipe.states[static_cast<std::size_t>(std::get<int>(still.at))];
-  return solve_state(recipe, state, solved.mesh, solved.regions, solved.timeline.representation,
-                     options);
-}
-
-/// At the vertices of the first source's file, or no rows where colours do not change.
-Positions colours_at(const SolvedRecipe& solved, double time) {
-  if (solved.colours.empty()) return {};
-  return mixed_colours(
-      solved.colours, solved.mesh,
-      transition_at(solved.recipe, solved.regions, solved.mesh.connectivity.vertex_count, time));
-}
-
-Positions still_colours(const SolvedRecipe& solved, const Still& still) {
-  if (const double* time = std::get_if<double>(&still.at)) return colours_at(solved, *time);
-  if (solved.colours.empty()) return {};
-  const Recipe& recipe = solved.recipe;
-  const State& state = recipe.states[static_cast<std::size_t>(std::get<int>(still.at))];
-  return mixed_colours(
-      solved.colours, solved.mesh,
-      state_transition(state, solved.regions, solved.mesh.connectivity.vertex_count));
-}
 
 void warn_of_no_targets(const Recipe& recipe, std::size_t index, const Observer& observer) {
   report(observer,
@@ -79,155 +52,6 @@ void warn_of_skin(const SolvedRecipe& solved, const Observer& observer) {
                  "the first source is posed by its skeleton, so the mesh that is written has no "
                  "skin",
                  "name a source in its rest pose first to keep the skin"});
-}
-
-/// Tells that a bound is not kept: an error, or a warning where the recipe says so.
-void tell_unmet(const Output& output, Problem problem, const Observer& observer) {
-  problem.severity = output.unmet_is_error ? Severity::Error : Severity::Warning;
-  if (output.unmet_is_error) throw BakeError(std::move(problem));
-  report(observer, problem);
-}
-
-bool keeps_positions(const Output& output, const OutputReport& written) {
-  return written.max_error <= output.max_error;
-}
-
-bool keeps_normals(const Output& output, const NormalReport& normals) {
-  const NormalBounds& bounds = output.max_normal_error;
-  return normals.maximum <= bounds.maximum.value_or(180) &&
-         normals.percentile_99 <= bounds.percentile_99.value_or(180);
-}
-
-void check_positions(const Recipe& recipe, std::size_t index, const OutputReport& written,
-                     const Observer& observer) {
-  const Output& output = recipe.outputs[index];
-  if (keeps_positions(output, written)) return;
-  Problem problem{
-      Severity::Error, "export.position-error",
-      location_in(recipe, fmt::format("/outputs/{}/max_error", index)),
-      fmt::format("positions are up to {:.3g} of the diagonal off, more than the {:.3g} "
-                  "that are allowed; worst at vertex {} and {:.4g} s",
-                  written.max_error, output.max_error, written.worst_vertex, written.worst_time),
-      "\"targets\": \"frames\" is as exact as float32; a larger bound, or \"unmet\": "
-      "\"warning\", accepts it"};
-  tell_unmet(output, std::move(problem), observer);
-}
-
-void check_normals(const Recipe& recipe, std::size_t index, const NormalReport& normals,
-                   const Observer& observer) {
-  const Output& output = recipe.outputs[index];
-  if (keeps_normals(output, normals)) return;
-  const NormalBounds& bounds = output.max_normal_error;
-  const bool is_whole = normals.maximum <= bounds.maximum.value_or(180);
-  const double bound = is_whole ? *bounds.percentile_99 : *bounds.maximum;
-  Problem problem{
-      Severity::Error, "export.normal-error",
-      location_in(recipe, fmt::format("/outputs/{}/max_normal_error", index)),
-      fmt::format(
-          "normals are up to {:.2f} degrees off ({:.2f} for 99 in 100), more than the {:.4g} "
-          "that are allowed; worst at vertex {} and {:.4g} s",
-          normals.maximum, normals.percentile_99, bound, normals.vertex, normals.time),
-      "\"targets\": \"frames\" follows normals closer than \"tracks\"; a larger bound, or "
-      "\"unmet\": \"warning\", accepts it"};
-  tell_unmet(output, std::move(problem), observer);
-}
-
-/// The motion with progress and a place to stop at each moment that is asked for: once a frame for
-/// normals, twice for the measurement.
-ReferenceMotion watched(const ReferenceMotion& motion, const Observer& observer) {
-  const auto total = static_cast<int>(3 * motion.frame_times.size());
-  const auto done = std::make_shared<int>(0);
-  return {motion.frame_times, [motion, &observer, total, done](double time) {
-            advance(observer, {"export", std::min((*done)++, total), total});
-            return motion.positions_at(time);
-          }};
-}
-
-/// A morph and the motion that each of its clips is to show; of a still, that it does not move.
-struct MorphWithMotions {
-  MeshMorph morph;
-  std::unique_ptr<ReferenceMotion> timeline;  ///< of which the motions are parts
-  std::vector<ReferenceMotion> motions;
-  std::string kind;  ///< of targets, as recipes write it, or "still"
-};
-
-MorphWithMotions make_still_output(const SolvedRecipe& solved, const Still& still,
-                                   const SolveOptions& options) {
-  const Positions positions = still_positions(solved, still, options);
-  return {
-      make_still(solved.first, solved.mesh, solved.groups, positions, still_colours(solved, still)),
-      nullptr,
-      {{{0.0}, [positions](double) { return positions; }}},
-      "still"};
-}
-
-/// The kind that is asked for, where a timeline without tracks has none.
-TargetKind kind_of(const Output& output, const SolvedTimeline& timeline) {
-  const bool has_tracks = timeline.shapes.base.rows() > 0;
-  if (output.targets != TargetKind::Auto) return output.targets;
-  return has_tracks ? TargetKind::Tracks : TargetKind::Auto;
-}
-
-/// A morph is as large as it has targets. Of keyframes two are active at any time, of a basis all.
-MorphBasis smallest_basis(const FrameSource& frames, double tolerance,
-                          const std::vector<Clip>& clips, const Observer& observer) {
-  MorphBasis keyframes = keyframe_basis(frames, tolerance, clips, observer);
-  if (frames.times.size() > kMostFramesOfBasis) return keyframes;
-  MorphBasis principal = principal_basis(frames, tolerance, clips, observer);
-  return principal.targets.size() < keyframes.targets.size() ? std::move(principal)
-                                                             : std::move(keyframes);
-}
-
-/// What an output is made from, beside the recipe.
-struct OutputInputs {
-  const Output& output;
-  TargetKind kind;
-  const BakeOptions& options;
-  const Observer& observer;
-};
-
-/// @param tolerance  of positions, scene units
-MorphBasis basis_of(const SolvedTimeline& timeline, const Timeline& of, const OutputInputs& inputs,
-                    double tolerance) {
-  const std::vector<Clip>& clips = inputs.output.clips;
-  switch (inputs.kind) {
-    case TargetKind::Tracks:
-      return track_basis(timeline.shapes, *timeline.separable, of, clips, inputs.options.basis);
-    case TargetKind::Keyframes:
-      return keyframe_basis(timeline.frames, tolerance, clips, inputs.observer);
-    case TargetKind::Basis:
-      return principal_basis(timeline.frames, tolerance, clips, inputs.observer);
-    case TargetKind::Auto:
-      return smallest_basis(timeline.frames, tolerance, clips, inputs.observer);
-    case TargetKind::Frames:
-      break;
-  }
-  return frame_basis(timeline.frames, clips);
-}
-
-MorphWithMotions make_animated_output(const SolvedRecipe& solved, const OutputInputs& inputs,
-                                      double tolerance) {
-  const Timeline& timeline = solved.recipe.timeline;
-  const SolvedTimeline& of = solved.timeline;
-  const bool by_track = inputs.kind == TargetKind::Tracks;
-  MorphWithMotions made;
-  made.timeline = std::make_unique<ReferenceMotion>(watched(
-      by_track ? continuous_motion(of.shapes, *of.separable, timeline) : stepped_motion(of.frames),
-      inputs.observer));
-  if (!solved.colours.empty()) {
-    made.timeline->colours_at = [&solved](double time) { return colours_at(solved, time); };
-    made.timeline->first_colours = colours_at(solved, 0);
-  }
-  for (const Clip& clip : inputs.output.clips) {
-    made.motions.push_back(motion_of(*made.timeline, clip));
-  }
-  const MorphBasis basis = basis_of(of, timeline, inputs, tolerance);
-  made.kind = name_of(basis.kind);
-  // Integers cannot exceed 1. Where they do not have to be small, such targets may stay floats.
-  const bool is_small = inputs.output.encoding == Encoding::Meshopt;
-  made.morph = make_mesh_morph(solved.first, solved.mesh, basis, solved.groups, made.motions,
-                               is_small ? TargetRange::Unit : TargetRange::Any);
-  return made;
 }
 
 /// How far the clips of what was written are from their motions.
@@ -293,10 +117,6 @@ WrittenOutput write_output(const SolvedRecipe& solved, const Output& output,
   report.normals = {error.normal_angle, error.normal_angle_99, error.normal_time,
                     error.normal_vertex};
   return result;
-}
-
-bool keeps_bounds(const Output& output, const OutputReport& written) {
-  return keeps_positions(output, written) && keeps_normals(output, written.normals);
 }
 
 /// Fewer targets that keep the bounds, as those of one tolerance do and those of another do not.
@@ -425,8 +245,7 @@ StagedOutput stage_output(const SolvedRecipe& solved, std::size_t index, const B
   if (!output.still && !has_targets) warn_of_no_targets(solved.recipe, index, observer);
   if (has_targets && !output.profile) warn_of_targets(solved, index, written.all_targets, observer);
   check_profile(solved, index, inputs, written);
-  check_positions(solved.recipe, index, written.report, observer);
-  check_normals(solved.recipe, index, written.report.normals, observer);
+  check_bounds(solved.recipe, index, written.report, observer);
   return {std::move(written.report), outputs.stage(output.file, written.bytes), written.node};
 }
 
