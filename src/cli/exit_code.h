@@ -16,6 +16,11 @@ enum class ExitCode {
   Numerical = 5,
   CannotWrite = 6,
   Interrupted = 130,
+
+  // Of commands that judge: `diff`, `golden`. Whatever keeps them from judging is Unjudged.
+  Same = 0,
+  Different = 1,
+  Unjudged = 2,
 };
 
 /// The exit code that belongs to a problem's code, by its module: "gltf.no-mesh" -> SourceMesh.

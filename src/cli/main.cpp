@@ -27,12 +27,14 @@ Examples:
   morphbake inspect out/morph.glb            targets, sizes, bounds
   morphbake preview out/morph.glb            turntable of any morph glTF
   morphbake preview --compare a.glb b.glb    side by side, and how their shapes change
+  morphbake diff old.glb new.glb             whether both show the same motion, and where not
+  morphbake golden recipe.json               bakes, and compares with results that were accepted
   morphbake landmarks suggest a.glb b.glb    points that correspond, with pictures
   morphbake config                           every option with its default
 
 Results go to stdout, everything else to stderr. NO_COLOR is respected.
 Exit codes: 0 done, 1 bug, 2 usage or recipe, 4 source mesh, 5 numerical,
-            6 cannot write, 130 interrupted
+            6 cannot write, 130 interrupted; diff and golden: 0 same, 1 different, 2 error
 Documentation: docs/ and examples/ of the source; recipes: schemas/recipe.schema.json)";
 
 struct GlobalFlags {
@@ -71,8 +73,8 @@ std::string shown_error(const CLI::App& program, const CLI::ParseError& error,
   if (!program.get_subcommands().empty()) return error.what();
   if (command_word.empty()) return "no command given";
   return "'" + std::string(command_word) +
-         "' is no command; there are init, bake, validate, remesh, inspect, preview, landmarks, "
-         "config";
+         "' is no command; there are init, bake, validate, remesh, inspect, preview, diff, golden, "
+         "landmarks, config";
 }
 
 void add_global_flags(CLI::App& program, GlobalFlags& flags) {
@@ -84,33 +86,6 @@ void add_global_flags(CLI::App& program, GlobalFlags& flags) {
       ->capture_default_str();
   program.add_flag("--quiet", flags.quiet, "Only problems on stderr: no progress, no summary");
   program.footer(kFooter);
-}
-
-/// Reads the command line and runs its command.
-///
-/// @param terminal  is given the settings that the command line asks for
-void run_program(int argc, char** argv, Terminal& terminal) {
-  CLI::App program(kDescription, "morphbake");
-  GlobalFlags flags;
-  add_global_flags(program, flags);
-  const std::vector<Command> commands = {
-      add_init(program),    add_bake(program),    add_validate(program),  add_remesh(program),
-      add_inspect(program), add_preview(program), add_landmarks(program), add_config(program)};
-  try {
-    program.parse(argc, argv);
-  } catch (const CLI::CallForVersion&) {
-    return terminal.result(fmt::format("morphbake {}", version()));
-  } catch (const CLI::CallForHelp&) {
-    return terminal.result(program.help());
-  } catch (const CLI::ParseError& error) {
-    throw usage_error(shown_error(program, error, command_word(argc, argv)),
-                      "see morphbake --help, or morphbake COMMAND --help");
-  }
-  const LogFormat log = flags.log == "json" ? LogFormat::Json : LogFormat::Text;
-  terminal = Terminal(settings_for_this_process(log, flags.quiet));
-  for (const Command& command : commands) {
-    if (command.parser->parsed()) command.run(terminal);
-  }
 }
 
 ExitCode tell_bug(Terminal& terminal, std::string_view what) {
@@ -131,11 +106,62 @@ ExitCode tell_out_of_memory(Terminal& terminal) {
   return exit_code_of(problem.code);
 }
 
+/// Runs a command that judges. What keeps it from judging is told, and never taken for a verdict.
+ExitCode judge(const Command& command, Terminal& terminal) {
+  try {
+    const bool is_same = command.judge(terminal);
+    terminal.finish();
+    return is_same ? ExitCode::Same : ExitCode::Different;
+  } catch (const Cancelled&) {
+    throw;
+  } catch (const BakeError& error) {
+    for (const Problem& problem : error.problems()) terminal.problem(problem);
+  } catch (const std::bad_alloc&) {
+    tell_out_of_memory(terminal);
+  } catch (const std::exception& error) {
+    tell_bug(terminal, error.what());
+  }
+  return ExitCode::Unjudged;
+}
+
+/// Reads the command line and runs its command.
+///
+/// @param terminal  is given the settings that the command line asks for
+ExitCode run_program(int argc, char** argv, Terminal& terminal) {
+  CLI::App program(kDescription, "morphbake");
+  GlobalFlags flags;
+  add_global_flags(program, flags);
+  const std::vector<Command> commands = {
+      add_init(program),    add_bake(program),    add_validate(program),  add_remesh(program),
+      add_inspect(program), add_preview(program), add_diff(program),      add_golden(program),
+      add_landmarks(program), add_config(program)};
+  try {
+    program.parse(argc, argv);
+  } catch (const CLI::CallForVersion&) {
+    terminal.result(fmt::format("morphbake {}", version()));
+    return ExitCode::Done;
+  } catch (const CLI::CallForHelp&) {
+    terminal.result(program.help());
+    return ExitCode::Done;
+  } catch (const CLI::ParseError& error) {
+    throw usage_error(shown_error(program, error, command_word(argc, argv)),
+                      "see morphbake --help, or morphbake COMMAND --help");
+  }
+  const LogFormat log = flags.log == "json" ? LogFormat::Json : LogFormat::Text;
+  terminal = Terminal(settings_for_this_process(log, flags.quiet));
+  for (const Command& command : commands) {
+    if (!command.parser->parsed()) continue;
+    if (command.judge) return judge(command, terminal);
+    command.run(terminal);
+  }
+  return ExitCode::Done;
+}
+
 ExitCode guarded_run(int argc, char** argv, Terminal& terminal) {
   try {
-    run_program(argc, argv, terminal);
+    const ExitCode code = run_program(argc, argv, terminal);
     terminal.finish();
-    return ExitCode::Done;
+    return code;
   } catch (const BakeError& error) {
     for (const Problem& problem : error.problems()) terminal.problem(problem);
     return exit_code_of(error.problems());

@@ -207,6 +207,7 @@ WrittenMesh read_mesh(const GltfDocument& document, const MeshNode& at, std::siz
   std::vector<AnimationCurve> curves =
       last_weights(document, at.node, static_cast<int>(rest.size()), clips);
   if (curves.empty()) curves.push_back(constant_weights(rest));
+  mesh.rest_weights = rest;
   mesh.weights = curves.back();
   return {std::move(mesh), std::move(curves)};
 }
@@ -250,6 +251,11 @@ std::vector<WeightsAnimation> weights_animations(const GltfFile& file, int node)
     animation.name = animations[a].name;
   }
   return found;
+}
+
+AnimationCurve weights_curve(const GltfFile& file, int node, int animation) {
+  const int mesh = file->model.nodes[static_cast<std::size_t>(node)].mesh;
+  return chosen_weights(*file, node, static_cast<int>(target_count(*file, mesh)), animation);
 }
 
 WrittenMesh read_written_mesh(const std::string& glb, const std::filesystem::path& name, int node,
