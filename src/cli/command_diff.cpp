@@ -93,8 +93,7 @@ Command add_diff(CLI::App& program) {
                      "The node whose mesh is compared, by its name in both files or its index from "
                      "0 (default: all meshes of the scene)");
   add_tolerances(*parser, arguments->options);
-  parser->add_flag("--json", arguments->json,
-                   "The same as JSON (schemas/diff.schema.json)");
+  parser->add_flag("--json", arguments->json, "The same as JSON (schemas/diff.schema.json)");
   parser->add_option("--heatmap", arguments->heat_map,
                      "Write the first file's meshes at rest as a .glb, coloured by the largest "
                      "difference over time: grey none, blue what is allowed, yellow to red more");
@@ -104,7 +103,8 @@ Command add_diff(CLI::App& program) {
   add_loop(*parser, arguments->loop);
   add_settings(*parser, arguments->settings);
   parser->footer(kFooter);
-  return {parser, {}, [arguments](Terminal& terminal) { return judge_files(*arguments, terminal); }};
+  return {
+      parser, {}, [arguments](Terminal& terminal) { return judge_files(*arguments, terminal); }};
 }
 
 }  // namespace morphbake::cli

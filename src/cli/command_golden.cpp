@@ -125,9 +125,8 @@ Command add_golden(CLI::App& program) {
   add_tolerances(*parser, options.diff);
   add_settings(*parser, options.settings);
   parser->footer(kFooter);
-  return {parser, {}, [arguments](Terminal& terminal) {
-            return judge_recipes(*arguments, terminal);
-          }};
+  return {
+      parser, {}, [arguments](Terminal& terminal) { return judge_recipes(*arguments, terminal); }};
 }
 
 }  // namespace morphbake::cli

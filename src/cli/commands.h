@@ -59,7 +59,8 @@ void add_loop(CLI::App& parser, LoopArguments& loop);
 /// @throws BakeError "usage.bad-argument" for a size that is none
 PreviewRequest request_of(const LoopArguments& loop);
 
-/// The options `--tolerance`, `--relative`, `--normals`, `--attributes`, `--strict` and `--threads`.
+/// The options `--tolerance`, `--relative`, `--normals`, `--attributes`, `--strict` and
+/// `--threads`.
 void add_tolerances(CLI::App& parser, DiffOptions& options);
 
 /// The error of a command line that cannot be meant: "usage.bad-argument".

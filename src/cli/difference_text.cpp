@@ -38,25 +38,23 @@ void append_findings(const std::vector<Finding>& findings, bool differences,
 }
 
 std::string normals_allowed(const MeshDifference& mesh) {
-  return mesh.allowed.normal_angle
-             ? fmt::format("{:.3g} degrees", *mesh.allowed.normal_angle)
-             : "any angle, since the weights are others: see --normals";
+  return mesh.allowed.normal_angle ? fmt::format("{:.3g} degrees", *mesh.allowed.normal_angle)
+                                   : "any angle, since the weights are others: see --normals";
 }
 
 void append_mesh(const MeshDifference& mesh, std::vector<std::string>& lines) {
+  lines.push_back(
+      fmt::format("mesh        {} of nodes {} and {}: {} compared, {} beyond",
+                  mesh.name.empty() ? "(no name)" : mesh.name, mesh.node_a, mesh.node_b,
+                  counted(static_cast<int>(mesh.vertices.distance.size()), "vertex", "vertices"),
+                  std::max(mesh.vertices_beyond, mesh.normals_beyond)));
   lines.push_back(fmt::format(
-      "mesh        {} of nodes {} and {}: {} compared, {} beyond",
-      mesh.name.empty() ? "(no name)" : mesh.name, mesh.node_a, mesh.node_b,
-      counted(static_cast<int>(mesh.vertices.distance.size()), "vertex", "vertices"),
-      std::max(mesh.vertices_beyond, mesh.normals_beyond)));
-  lines.push_back(fmt::format("allowed     {:.3e} ({:.2e} of the diagonal), normals {}",
-                              mesh.allowed.distance,
-                              mesh.diagonal > 0 ? mesh.allowed.distance / mesh.diagonal : 0.0,
-                              normals_allowed(mesh)));
+      "allowed     {:.3e} ({:.2e} of the diagonal), normals {}", mesh.allowed.distance,
+      mesh.diagonal > 0 ? mesh.allowed.distance / mesh.diagonal : 0.0, normals_allowed(mesh)));
   for (const ClipDifference& clip : mesh.clips) {
-    lines.push_back(fmt::format("clip        {:<{}} {}", clip_name(clip), kClipWidth,
-                                counted(static_cast<int>(clip.motion.instants), "time",
-                                        "times, keys and middles")));
+    lines.push_back(fmt::format(
+        "clip        {:<{}} {}", clip_name(clip), kClipWidth,
+        counted(static_cast<int>(clip.motion.instants), "time", "times, keys and middles")));
     lines.push_back("  positions " + distance_text(clip.motion.position, mesh.diagonal));
     const LargestDifference& normal = clip.motion.normal;
     lines.push_back("  normals   " +

@@ -132,8 +132,8 @@ ExitCode run_program(int argc, char** argv, Terminal& terminal) {
   GlobalFlags flags;
   add_global_flags(program, flags);
   const std::vector<Command> commands = {
-      add_init(program),    add_bake(program),    add_validate(program),  add_remesh(program),
-      add_inspect(program), add_preview(program), add_diff(program),      add_golden(program),
+      add_init(program),      add_bake(program),    add_validate(program), add_remesh(program),
+      add_inspect(program),   add_preview(program), add_diff(program),     add_golden(program),
       add_landmarks(program), add_config(program)};
   try {
     program.parse(argc, argv);

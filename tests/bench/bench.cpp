@@ -1,5 +1,5 @@
 // bench [NAME...] [> TABLE]: measures everything, or what is named: solve, regions, eigenvectors,
-// load, export, preview. With --json FILE first it writes the figures there as well.
+// load, export, preview, diff. With --json FILE first it writes the figures there as well.
 
 #include <fmt/core.h>
 #include <malloc.h>
@@ -84,6 +84,7 @@ int main(int argc, char** argv) {
       {"load", [](Figures& figures) { bench_load(500000, figures); }},
       {"export", [](Figures& figures) { bench_export(100000, figures); }},
       {"preview", [](Figures& figures) { bench_preview(100000, figures); }},
+      {"diff", [](Figures& figures) { bench_diff(100000, figures); }},
   };
   Figures figures;
   for (const auto& [name, measure] : all) {

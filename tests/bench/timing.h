@@ -49,5 +49,6 @@ void bench_eigenvectors(int vertices, Figures& figures);
 void bench_load(int vertices, Figures& figures);
 void bench_export(int vertices, Figures& figures);
 void bench_preview(int vertices, Figures& figures);
+void bench_diff(int vertices, Figures& figures);
 
 }  // namespace morphbake::bench

@@ -68,7 +68,7 @@ const measured = (file, words) => new Promise((resolve) => {
 });
 
 /** Runs the program; its exit code, what it said, and what is wrong with its end. */
-async function run(name, folder, words) {
+async function run(name, folder, words, codes = [0, BAD_INPUT]) {
   const measure = join(folder, '..', 'time.txt');
   const done = await measured(measure, words);
   const [user, system, kilobytes] = readFileSync(measure, 'utf8').trim().split('\n').pop().split(' ').map(Number);
@@ -77,7 +77,7 @@ async function run(name, folder, words) {
   const problems = [];
   if (seconds > SECONDS) problems.push(`${words[0]} took ${seconds.toFixed(1)} s`);
   if (kilobytes > KILOBYTES) problems.push(`${words[0]} took ${Math.round(kilobytes / 1024)} MiB`);
-  if (![0, BAD_INPUT].includes(done.status)) problems.push(`${words[0]}: exit code ${done.status}`);
+  if (!codes.includes(done.status)) problems.push(`${words[0]}: exit code ${done.status}`);
   return { ...done, problems };
 }
 
@@ -85,6 +85,7 @@ const words = {
   bake: (folder) => ['bake', join(folder, 'recipe.json')],
   preview: (folder) => ['preview', join(folder, 'bad.gltf'), '--size', '16x16', '--frames', '2', '-o', join(folder, 'out/bad')],
   inspect: (folder) => ['inspect', join(folder, 'bad.gltf')],
+  diff: (folder) => ['diff', join(folder, 'bad.gltf'), join(folder, 'bad.gltf')],
 };
 
 /** Problems of one case: [] when all is as it must be. */
@@ -108,6 +109,7 @@ async function check(name, command, [change, ...texts], { choice, mayBeRead = fa
   if (done.stderr.length > 100000) problems.push(`stderr has ${done.stderr.length} characters`);
   if (!isWarning && filesBelow(folder).filter(({ name }) => !differs || !name.endsWith('.png')).length !== before) problems.push('something was left behind');
   if (inspected) problems.push(...(await run(name, folder, words.inspect(folder))).problems);
+  if (inspected) problems.push(...(await run(name, folder, words.diff(folder), [0, 1, 2])).problems);
   return problems.length ? [...problems, done.stderr.trim().slice(0, 2000)] : [];
 }
 
@@ -116,7 +118,7 @@ const cases = (files, kind, command, rules = {}) =>
 
 const all = [
   ...cases([container, packed], 'baked', 'bake'),
-  // Inspect reads more of a file than a bake does: it must end well, however it ends.
+  // Inspect and diff read more of a file than a bake does: they must end well, however they end.
   ...cases([accessors, scene, huge], 'baked', 'bake', { inspected: true }),
   ...Object.entries(scene.chosen).map(([name, [choice, ...definition]]) => ({ name, definition, command: 'bake', rules: { choice } })),
   ...Object.entries(huge.chosen).map(([name, [choice, ...definition]]) => ({ name, definition, command: 'bake', rules: { choice, mayBeRead: true } })),

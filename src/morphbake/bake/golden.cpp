@@ -42,11 +42,11 @@ void claim_golden_files(const GoldenRun& run, const Recipe& recipe) {
   for (std::size_t i = 0; i < recipe.outputs.size(); ++i) {
     const fs::path file = golden_file(run, recipe.outputs[i].file);
     if (run.claimed.insert(fs::absolute(file).lexically_normal()).second) continue;
-    problems.push_back({Severity::Error, "recipe.duplicate-output",
-                        location_in(recipe, fmt::format("/outputs/{}/file", i)),
-                        fmt::format("'{}' is the stored result of another output as well",
-                                    file.string()),
-                        "run the recipes with a --golden-dir each, or give the outputs other names"});
+    problems.push_back(
+        {Severity::Error, "recipe.duplicate-output",
+         location_in(recipe, fmt::format("/outputs/{}/file", i)),
+         fmt::format("'{}' is the stored result of another output as well", file.string()),
+         "run the recipes with a --golden-dir each, or give the outputs other names"});
   }
   if (!problems.empty()) throw BakeError(std::move(problems));
 }
@@ -112,8 +112,8 @@ GoldenRecipe run_recipe(const GoldenRun& run, PendingOutputs& accepted) {
     Recipe recipe = redirect_outputs(read_recipe(run.recipe), folder.path());
     claim_golden_files(run, recipe);
     recipe.preview.reset();
-    BakeOptions options = read_options(recipe.options, location_in(recipe, "/options").file,
-                                       run.options.settings);
+    BakeOptions options =
+        read_options(recipe.options, location_in(recipe, "/options").file, run.options.settings);
     options.threads = run.options.diff.threads;
     for (const OutputReport& output : bake(recipe, options, run.observer).outputs) {
       made.push_back(output.file);
@@ -128,7 +128,8 @@ GoldenRecipe run_recipe(const GoldenRun& run, PendingOutputs& accepted) {
 
 /// A folder a recipe below that of all evidence: told apart by as much of the recipes' paths as it
 /// takes, without the ending.
-std::vector<fs::path> evidence_folders(const std::vector<fs::path>& recipes, const fs::path& below) {
+std::vector<fs::path> evidence_folders(const std::vector<fs::path>& recipes,
+                                       const fs::path& below) {
   std::vector<fs::path> whole;
   for (const fs::path& recipe : recipes) {
     std::error_code error;

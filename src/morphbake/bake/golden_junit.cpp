@@ -131,8 +131,8 @@ JunitCount count_of(const GoldenRecipe& recipe) {
   for (const GoldenOutput& output : recipe.outputs) {
     ++count.tests;
     count.errors += output.verdict == GoldenVerdict::Failed;
-    count.failures += output.verdict == GoldenVerdict::Different ||
-                      output.verdict == GoldenVerdict::Missing;
+    count.failures +=
+        output.verdict == GoldenVerdict::Different || output.verdict == GoldenVerdict::Missing;
   }
   return count;
 }

@@ -10,15 +10,15 @@ namespace morphbake {
 struct DiffOptions {
   /// Scene units (metres in glTF), >= 0: how far a vertex may be from its place. Where `relative`
   /// is given as well, the larger of both holds.
-  std::optional<double> absolute;
+  std::optional<double> absolute = {};
 
   /// The same as a fraction of the bounding-box diagonal of the first file's first frame, >= 0.
   /// 1e-5 where neither is given.
-  std::optional<double> relative;
+  std::optional<double> relative = {};
 
   /// Degrees, 0 to 180: how far a normal may be turned. Not given: 0.1, and only where both files
   /// have the same targets with the same weights, for normals are not linear in the weights.
-  std::optional<double> normal_angle;
+  std::optional<double> normal_angle = {};
 
   /// How far numbers of other attributes, of materials and of COLOR_0 may be apart, in their own
   /// units, >= 0.

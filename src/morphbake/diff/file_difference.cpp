@@ -141,8 +141,8 @@ class MeshDiffer {
     found_.vertices = no_differences(meshes_);
     found_.findings = mesh_findings(a_, b_, options_);
     if (a_.at.name != b_.at.name) {
-      note_or_differ("name", fmt::format("the mesh is called \"{}\" against \"{}\"", a_.at.name,
-                                         b_.at.name));
+      note_or_differ(
+          "name", fmt::format("the mesh is called \"{}\" against \"{}\"", a_.at.name, b_.at.name));
     }
     found_.diagonal = first_diagonal(a_.mesh);
     found_.allowed.distance = allowed_distance(options_, found_.diagonal);
@@ -169,7 +169,8 @@ class MeshDiffer {
       differ("animations", fmt::format("animation \"{}\" is in the first file only", in_a[i].name));
     }
     for (const std::size_t j : names.only_b) {
-      differ("animations", fmt::format("animation \"{}\" is in the second file only", in_b[j].name));
+      differ("animations",
+             fmt::format("animation \"{}\" is in the second file only", in_b[j].name));
     }
     for (const auto& [i, j] : names.pairs) {
       if (in_a[i].name != in_b[j].name) {
@@ -292,8 +293,8 @@ bool is_same(const FileDifference& difference) {
 FileDifference diff_files(const std::filesystem::path& a, const std::filesystem::path& b,
                           const DiffOptions& options, const Observer& observer) {
   advance(observer, {"load", 0, 1});
-  const auto [in_a, in_b] = both<OpenFile>([&] { return open_file(a, options); },
-                                           [&] { return open_file(b, options); });
+  const auto [in_a, in_b] =
+      both<OpenFile>([&] { return open_file(a, options); }, [&] { return open_file(b, options); });
   FileDifference difference;
   difference.file_a = a.string();
   difference.file_b = b.string();

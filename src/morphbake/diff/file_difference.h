@@ -40,11 +40,11 @@ struct MeshDifference {
   int node_b = 0;
   double diagonal = 0;  ///< scene units, of the first file's first frame
   AllowedDifference allowed;
-  std::vector<ClipDifference> clips;      ///< the weights at rest first
-  std::vector<std::size_t> primitives;    ///< that could be compared vertex by vertex
-  VertexDifferences vertices;             ///< of these, over all clips
-  std::size_t vertices_beyond = 0;        ///< further than is allowed, at any time
-  std::size_t normals_beyond = 0;         ///< turned further; 0 where normals are not judged
+  std::vector<ClipDifference> clips;    ///< the weights at rest first
+  std::vector<std::size_t> primitives;  ///< that could be compared vertex by vertex
+  VertexDifferences vertices;           ///< of these, over all clips
+  std::size_t vertices_beyond = 0;      ///< further than is allowed, at any time
+  std::size_t normals_beyond = 0;       ///< turned further; 0 where normals are not judged
   std::vector<Finding> findings;
 };
 
@@ -65,7 +65,8 @@ bool is_same(const FileDifference& difference);
 ///
 /// Meshes are paired by their nodes' names where both files have them once, else in the order of
 /// the scene; animations likewise. Skins are at rest.
-/// @throws BakeError with the problems of both files: as open_gltf and read_animated_mesh; Cancelled
+/// @throws BakeError with the problems of both files: as open_gltf and read_animated_mesh;
+/// Cancelled
 /// @cost   memory for both files as they are, and as floats
 FileDifference diff_files(const std::filesystem::path& a, const std::filesystem::path& b,
                           const DiffOptions& options, const Observer& observer);

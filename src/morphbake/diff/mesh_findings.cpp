@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 #include <fmt/ranges.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <set>
@@ -55,8 +56,8 @@ void compare_triangles(std::size_t p, Comparison& comparison) {
   const TriangleIndices& a = comparison.a.mesh.primitives[p].triangles;
   const TriangleIndices& b = comparison.b.mesh.primitives[p].triangles;
   if (a.rows() != b.rows()) {
-    return comparison.differ("triangles",
-                             fmt::format("primitive {}: {} triangles against {}", p, a.rows(), b.rows()));
+    return comparison.differ(
+        "triangles", fmt::format("primitive {}: {} triangles against {}", p, a.rows(), b.rows()));
   }
   if (a == b) return;
   const auto in_a = sorted_triangles(a), in_b = sorted_triangles(b);
@@ -67,10 +68,11 @@ void compare_triangles(std::size_t p, Comparison& comparison) {
   std::vector<std::array<int, 3>> only_a;
   std::set_difference(in_a.begin(), in_a.end(), in_b.begin(), in_b.end(),
                       std::back_inserter(only_a));
-  comparison.differ("triangles",
-                    fmt::format("primitive {}: {} of {} triangles join other vertices, the first of "
-                                "them {}, {}, {}",
-                                p, only_a.size(), a.rows(), only_a[0][0], only_a[0][1], only_a[0][2]));
+  comparison.differ(
+      "triangles",
+      fmt::format("primitive {}: {} of {} triangles join other vertices, the first of "
+                  "them {}, {}, {}",
+                  p, only_a.size(), a.rows(), only_a[0][0], only_a[0][1], only_a[0][2]));
 }
 
 void compare_facts(const PrimitiveFacts& a, const PrimitiveFacts& b, std::size_t p,
@@ -132,10 +134,10 @@ void compare_textures(std::size_t p, Comparison& comparison) {
   }
   if (in_a < 0) return;
   if (a.images[static_cast<std::size_t>(in_a)] != b.images[static_cast<std::size_t>(in_b)]) {
-    comparison.differ("texture",
-                      fmt::format("primitive {}: another base-colour picture, {} against {} bytes", p,
-                                  a.images[static_cast<std::size_t>(in_a)].size(),
-                                  b.images[static_cast<std::size_t>(in_b)].size()));
+    comparison.differ(
+        "texture", fmt::format("primitive {}: another base-colour picture, {} against {} bytes", p,
+                               a.images[static_cast<std::size_t>(in_a)].size(),
+                               b.images[static_cast<std::size_t>(in_b)].size()));
   }
 }
 
@@ -224,23 +226,33 @@ void compare_target_names(Comparison& comparison) {
                                             in_a - a.begin(), quoted(*in_a), quoted(*in_b)));
 }
 
+/// Bounds of rows, which are one at least.
+Eigen::AlignedBox3f bounds_of(const Float3s& rows) {
+  Eigen::AlignedBox3f box;
+  for (Eigen::Index v = 0; v < rows.rows(); ++v) {
+    box.extend(Eigen::Vector3f(rows(v, 0), rows(v, 1), rows(v, 2)));
+  }
+  return box;
+}
+
 /// Bounds that do not hold, each as one line.
 std::vector<std::string> wrong_bounds(const OpenMesh& open) {
   std::vector<std::string> wrong;
   for (const StatedBounds& stated : stated_bounds(open.file, open.at.mesh)) {
     const AnimatedPrimitive& primitive = open.mesh.primitives[stated.primitive];
     const bool is_base = stated.target < 0;
-    const Float3s& rows =
-        is_base ? primitive.positions
-                : primitive.target_positions[static_cast<std::size_t>(stated.target)];
+    const Float3s& rows = is_base
+                              ? primitive.positions
+                              : primitive.target_positions[static_cast<std::size_t>(stated.target)];
     if (rows.rows() == 0) continue;
-    const Eigen::Vector3d min = rows.colwise().minCoeff().transpose().cast<double>();
-    const Eigen::Vector3d max = rows.colwise().maxCoeff().transpose().cast<double>();
+    const Eigen::AlignedBox3f box = bounds_of(rows);
+    const Eigen::Vector3d min = box.min().cast<double>(), max = box.max().cast<double>();
     const double rounding =
         kBoundsRounding * std::max(min.cwiseAbs().maxCoeff(), max.cwiseAbs().maxCoeff());
     if (are_close(min, stated.min, rounding) && are_close(max, stated.max, rounding)) continue;
     wrong.push_back(fmt::format(
-        "primitive {}, {}: ({:.6g}, {:.6g}, {:.6g}) to ({:.6g}, {:.6g}, {:.6g}) is stated, ({:.6g}, "
+        "primitive {}, {}: ({:.6g}, {:.6g}, {:.6g}) to ({:.6g}, {:.6g}, {:.6g}) is stated, "
+        "({:.6g}, "
         "{:.6g}, {:.6g}) to ({:.6g}, {:.6g}, {:.6g}) is there",
         stated.primitive, is_base ? "POSITION" : fmt::format("target {}", stated.target),
         stated.min.x(), stated.min.y(), stated.min.z(), stated.max.x(), stated.max.y(),
@@ -291,8 +303,9 @@ std::vector<Finding> mesh_findings(const OpenMesh& a, const OpenMesh& b,
   const std::vector<PrimitiveFacts> facts_b = primitive_facts(b.file, b.at.mesh);
   for (std::size_t p = 0; p < std::min(in_a.size(), in_b.size()); ++p) {
     if (in_a[p].positions.rows() != in_b[p].positions.rows()) {
-      comparison.differ("vertices", fmt::format("primitive {}: {} vertices against {}", p,
-                                                in_a[p].positions.rows(), in_b[p].positions.rows()));
+      comparison.differ("vertices",
+                        fmt::format("primitive {}: {} vertices against {}", p,
+                                    in_a[p].positions.rows(), in_b[p].positions.rows()));
     }
     compare_triangles(p, comparison);
     compare_facts(facts_a[p], facts_b[p], p, comparison);

@@ -17,9 +17,9 @@
 namespace morphbake {
 namespace {
 
-constexpr Eigen::Index kBlock = 1024;       // vertices: 15 targets of a block take 180 kB
-constexpr std::size_t kBlocksAtOnce = 32;   // between two looks at the observer
-constexpr double kNoDirection = 1e-12;      // squared length of a normal that points nowhere
+constexpr Eigen::Index kBlock = 1024;      // vertices: 15 targets of a block take 180 kB
+constexpr std::size_t kBlocksAtOnce = 32;  // between two looks at the observer
+constexpr double kNoDirection = 1e-12;     // squared length of a normal that points nowhere
 
 struct ActiveTarget {
   std::size_t target = 0;
@@ -75,7 +75,9 @@ class BlockPose {
   BlockPose(const MorphedAttribute& attribute, const Block& block)
       : attribute_(attribute), block_(block), moves_(moving_targets(attribute, block)) {}
 
-  bool moves_at_all() const { return std::find(moves_.begin(), moves_.end(), true) != moves_.end(); }
+  bool moves_at_all() const {
+    return std::find(moves_.begin(), moves_.end(), true) != moves_.end();
+  }
 
   /// Base plus weighted targets, mesh space: 3 numbers a vertex.
   void pose(const ActiveTargets& active, Eigen::VectorXd& numbers) const {
@@ -94,7 +96,8 @@ class BlockPose {
     if (moves_ != other.moves_) return false;
     if (!same_bytes(attribute_.base, other.attribute_.base)) return false;
     for (std::size_t k = 0; k < moves_.size(); ++k) {
-      if (moves_[k] && !same_bytes(attribute_.targets[k], other.attribute_.targets[k])) return false;
+      if (moves_[k] && !same_bytes(attribute_.targets[k], other.attribute_.targets[k]))
+        return false;
     }
     return true;
   }
@@ -119,7 +122,8 @@ struct PlayedFile {
   Eigen::Matrix3d cofactors;  ///< normals to the scene: the inverse transpose up to a factor
   bool is_sampled = false;    ///< and the other one has other keys
   std::vector<ActiveTargets> frames;  ///< of a sampled file: one a key
-  std::vector<int> interval;  ///< of a sampled file, one an instant: the frame before, -1 at a frame
+  std::vector<int>
+      interval;  ///< of a sampled file, one an instant: the frame before, -1 at a frame
 };
 
 Eigen::Matrix3d cofactors_of(const Eigen::Matrix3d& linear) {
@@ -153,7 +157,8 @@ void find_intervals(const AnimationCurve& curve, const std::vector<double>& time
   for (std::size_t i = 0; i < times.size(); ++i) {
     const auto after = std::upper_bound(curve.times.begin(), curve.times.end(), times[i],
                                         [](double time, float key) { return time < key; });
-    const bool is_between = !is_key[i] && after != curve.times.begin() && after != curve.times.end();
+    const bool is_between =
+        !is_key[i] && after != curve.times.begin() && after != curve.times.end();
     file.interval.push_back(is_between ? static_cast<int>(after - curve.times.begin()) - 1 : -1);
   }
 }
@@ -242,9 +247,7 @@ MorphedAttribute normals_of(const AnimatedPrimitive& primitive) {
 
 using Points = Eigen::Map<const Eigen::Matrix3Xd>;
 
-Points points_of(const Eigen::VectorXd& numbers) {
-  return {numbers.data(), 3, numbers.size() / 3};
-}
+Points points_of(const Eigen::VectorXd& numbers) { return {numbers.data(), 3, numbers.size() / 3}; }
 
 /// Where nothing moves, the first instant tells all.
 std::size_t instants_that_differ(const Comparing& comparing, const BlockPose& a,
@@ -281,8 +284,7 @@ void compare_positions(const Comparing& comparing, const Block& block,
           comparing.a.linear * in_a.col(v) - comparing.b.linear * in_b.col(v) + offset;
       const double length = apart.norm();
       // Beyond what a double can hold; NaN would be smaller than anything.
-      const double distance =
-          std::isfinite(length) ? length : std::numeric_limits<double>::max();
+      const double distance = std::isfinite(length) ? length : std::numeric_limits<double>::max();
       const double beyond = distance - slack(v);
       if (beyond <= distances(v)) continue;
       distances(v) = beyond;
@@ -307,11 +309,10 @@ void compare_normals(const Comparing& comparing, const Block& block,
     b.pose(comparing.b.active[i], of_b);
     const Points normals_a = points_of(of_a), normals_b = points_of(of_b);
     for (Eigen::Index v = 0; v < block.count; ++v) {
-      const double turn =
-          comparing.is_same_place && comparing.a.linear.isIdentity(0)
-              ? turn_of(normals_a.col(v), normals_b.col(v))
-              : turn_of(comparing.a.cofactors * normals_a.col(v),
-                        comparing.b.cofactors * normals_b.col(v));
+      const double turn = comparing.is_same_place && comparing.a.linear.isIdentity(0)
+                              ? turn_of(normals_a.col(v), normals_b.col(v))
+                              : turn_of(comparing.a.cofactors * normals_a.col(v),
+                                        comparing.b.cofactors * normals_b.col(v));
       if (turn <= turns(v)) continue;
       turns(v) = turn;
       keep_larger(turn, 0, block, v, comparing.times[i], largest);

@@ -20,13 +20,12 @@ TemporaryFolder::TemporaryFolder(const std::string& name) {
     path_ = path;
     return;
   }
-  throw BakeError(
-      Problem{Severity::Error,
-              "output.unwritable",
-              {parent.string(), "", 0, 0},
-              fmt::format("cannot make a temporary folder: {}",
-                          error ? error.message() : std::string(std::strerror(errno))),
-              "set TMPDIR to a folder that is writable and has free space"});
+  throw BakeError(Problem{Severity::Error,
+                          "output.unwritable",
+                          {parent.string(), "", 0, 0},
+                          fmt::format("cannot make a temporary folder: {}",
+                                      error ? error.message() : std::string(std::strerror(errno))),
+                          "set TMPDIR to a folder that is writable and has free space"});
 }
 
 TemporaryFolder::~TemporaryFolder() {

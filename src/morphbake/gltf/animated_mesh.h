@@ -49,7 +49,7 @@ struct AnimatedMesh {
   std::vector<std::string> target_names;  ///< one a target, "" when the file names none
   std::vector<std::string> images;        ///< encoded bytes (PNG, JPEG) of the images that are used
   std::vector<std::string> image_names;   ///< one an image, for messages: "a.glb#/images/0"
-  AnimationCurve weights;  ///< one number a target; without animation the weights at rest
+  AnimationCurve weights;        ///< one number a target; without animation the weights at rest
   Eigen::VectorXd rest_weights;  ///< one a target: without any animation
 };
 
