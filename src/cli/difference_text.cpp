@@ -2,8 +2,6 @@
 
 #include <fmt/core.h>
 
-#include <algorithm>
-
 #include "morphbake/diagnostics/counted.h"
 
 namespace morphbake::cli {
@@ -42,24 +40,30 @@ std::string normals_allowed(const MeshDifference& mesh) {
                                    : "any angle, since the weights are others: see --normals";
 }
 
+std::string shown_count(std::size_t count, const char* one, const char* several) {
+  return counted(static_cast<int>(count), one, several);
+}
+
+void append_clip(const ClipDifference& clip, double diagonal, std::vector<std::string>& lines) {
+  const LargestDifference& normal = clip.motion.normal;
+  lines.push_back(fmt::format("clip        {:<{}} {}", clip_name(clip), kClipWidth,
+                              shown_count(clip.motion.instants, "time", "times")));
+  lines.push_back("  positions " + distance_text(clip.motion.position, diagonal));
+  lines.push_back("  normals   " + place_text(normal, fmt::format("{:.3g} degrees", normal.value)));
+}
+
 void append_mesh(const MeshDifference& mesh, std::vector<std::string>& lines) {
-  lines.push_back(
-      fmt::format("mesh        {} of nodes {} and {}: {} compared, {} beyond",
-                  mesh.name.empty() ? "(no name)" : mesh.name, mesh.node_a, mesh.node_b,
-                  counted(static_cast<int>(mesh.vertices.distance.size()), "vertex", "vertices"),
-                  std::max(mesh.vertices_beyond, mesh.normals_beyond)));
+  const auto vertices = static_cast<std::size_t>(mesh.vertices.distance.size());
+  lines.push_back(fmt::format("mesh        {} of nodes {} and {}: {} compared",
+                              mesh.name.empty() ? "(no name)" : mesh.name, mesh.node_a, mesh.node_b,
+                              shown_count(vertices, "vertex", "vertices")));
   lines.push_back(fmt::format(
       "allowed     {:.3e} ({:.2e} of the diagonal), normals {}", mesh.allowed.distance,
       mesh.diagonal > 0 ? mesh.allowed.distance / mesh.diagonal : 0.0, normals_allowed(mesh)));
-  for (const ClipDifference& clip : mesh.clips) {
-    lines.push_back(fmt::format(
-        "clip        {:<{}} {}", clip_name(clip), kClipWidth,
-        counted(static_cast<int>(clip.motion.instants), "time", "times, keys and middles")));
-    lines.push_back("  positions " + distance_text(clip.motion.position, mesh.diagonal));
-    const LargestDifference& normal = clip.motion.normal;
-    lines.push_back("  normals   " +
-                    place_text(normal, fmt::format("{:.3g} degrees", normal.value)));
-  }
+  lines.push_back(fmt::format("beyond      {}, {}",
+                              shown_count(mesh.vertices_beyond, "vertex", "vertices"),
+                              shown_count(mesh.normals_beyond, "normal", "normals")));
+  for (const ClipDifference& clip : mesh.clips) append_clip(clip, mesh.diagonal, lines);
 }
 
 }  // namespace

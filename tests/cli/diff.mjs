@@ -3,16 +3,18 @@
 //   node diff.mjs MORPHBAKE SCRATCH SHAPES
 import { copyFileSync, mkdirSync, readFileSync, symlinkSync, writeFileSync } from 'node:fs';
 import path from 'node:path';
+import { fileURLToPath } from 'node:url';
 import { floatsOf, readGlb, writeGlb } from './glb.mjs';
 import { octahedron } from './bad_gltf/good.mjs';
 import { filesBelow, startTesting } from './testing.mjs';
 
+const here = path.dirname(fileURLToPath(import.meta.url));
 const [program, scratch, shapes] = process.argv.slice(2).map((each) => path.resolve(each));
 const { check, run, finish } = startTesting(program, scratch);
 const diff = (code, ...words) => run(code, ['diff', ...words]);
 const json = (code, ...words) => JSON.parse(diff(code, ...words, '--json').stdout);
-const kindsOf = (found, isDifference) => [...found.findings, ...found.meshes.flatMap(({ findings }) => findings)]
-  .filter(({ difference }) => difference === isDifference).map(({ kind }) => kind).sort().join();
+const kindsOf = (found, isDifference) => [...new Set([...found.findings, ...found.meshes.flatMap(({ findings }) => findings)]
+  .filter(({ difference }) => difference === isDifference).map(({ kind }) => kind))].sort().join();
 
 /** Bakes a bar that bends in 120 frames. */
 function bar(name, targets, more = {}) {
@@ -138,6 +140,15 @@ json(1, 'several.gltf', 'shifted.gltf', '--node', 'right');
 several.scenes[0].nodes = [0];
 writeFileSync('fewer.gltf', JSON.stringify(several));
 check(kindsOf(json(1, 'several.gltf', 'fewer.gltf'), true).includes('meshes'), 'a mesh that is gone passes');
+
+// Files of packers are read. Sparse accessors change nothing; quantised ones are off by half a step; a packer that puts
+// the vertices in another order makes another mesh.
+const packed = (name) => path.join(here, 'diff_files', name);
+check(kindsOf(json(0, packed('morph.glb'), packed('gltf-transform.glb'), '--strict'), true) === '', 'sparse accessors make a difference');
+check(kindsOf(json(1, packed('morph.glb'), packed('gltf-transform-quantized.glb')), true) === 'positions', 'quantisation');
+json(0, packed('morph.glb'), packed('gltf-transform-quantized.glb'), '--relative', '1e-4');
+check(kindsOf(json(1, packed('morph.glb'), packed('gltfpack.glb')), true) === 'positions,triangles', 'gltfpack');
+json(0, packed('gltfpack.glb'), packed('gltfpack.glb'), '--strict');
 
 // What is wrong is told, with exit code 2 whatever it is, and leaves nothing.
 const refuse = (texts, ...words) => {

@@ -63,7 +63,8 @@ OpenFile open_file(const std::filesystem::path& path, const DiffOptions& options
 
 OpenMesh open_mesh(const OpenFile& open, std::size_t index) {
   const ShownMesh& at = open.meshes[index];
-  return {open.file, at, read_animated_mesh(open.file, {.node = at.node})};
+  return {open.file, at, read_base_mesh(open.file, {.node = at.node}),
+          TargetRows(open.file, at.mesh)};
 }
 
 std::vector<std::string> names_of_meshes(const std::vector<ShownMesh>& meshes) {
@@ -107,11 +108,30 @@ bool have_same_weights(const OpenMesh& a, const OpenMesh& b, const CurvePair& cu
           (curves.a.values - curves.b.values).cwiseAbs().maxCoeff() <= kSameWeight);
 }
 
+/// All vertices with these weights, scene space: #R by 3.
+Positions posed(const OpenMesh& open, const Eigen::VectorXd& weights) {
+  AnimatedMesh shape = open.mesh;
+  for (std::size_t p = 0; p < shape.primitives.size(); ++p) {
+    Float3s& positions = shape.primitives[p].positions;
+    Positions moved = positions.cast<double>();
+    Float3s displacement(positions.rows(), 3);
+    for (std::size_t k = 0; k < open.targets.count(); ++k) {
+      const double weight = weights(static_cast<Eigen::Index>(k));
+      const TargetPlace place{p, k, MorphedAttribute::Position};
+      if (weight == 0 || !open.targets.has(place)) continue;
+      open.targets.read(place, 0, positions.rows(), displacement.data());
+      moved += weight * displacement.cast<double>();
+    }
+    positions = moved.cast<float>();
+  }
+  return morphed_positions(shape, {});
+}
+
 /// Length of the bounding box's diagonal at the first key of an animation, or at rest; scene units.
-double first_diagonal(const AnimatedMesh& mesh) {
-  const AnimationCurve& curve = mesh.weights;
+double first_diagonal(const OpenMesh& open) {
+  const AnimationCurve& curve = open.mesh.weights;
   const double first = curve.times.empty() ? 0 : curve.times.front();
-  const Positions positions = morphed_positions(mesh, value_at(curve, first));
+  const Positions positions = posed(open, value_at(curve, first));
   if (positions.rows() == 0) return 0;
   return (positions.colwise().maxCoeff() - positions.colwise().minCoeff()).norm();
 }
@@ -131,7 +151,7 @@ class MeshDiffer {
         b_(b),
         options_(options),
         observer_(observer),
-        meshes_{a.mesh, b.mesh, comparable_primitives(a, b)} {}
+        meshes_{{a.mesh, a.targets}, {b.mesh, b.targets}, comparable_primitives(a, b)} {}
 
   MeshDifference compare() {
     found_.name = a_.at.name;
@@ -144,7 +164,7 @@ class MeshDiffer {
       note_or_differ(
           "name", fmt::format("the mesh is called \"{}\" against \"{}\"", a_.at.name, b_.at.name));
     }
-    found_.diagonal = first_diagonal(a_.mesh);
+    found_.diagonal = first_diagonal(a_);
     found_.allowed.distance = allowed_distance(options_, found_.diagonal);
     compare_clip({true, "", "", {}}, {resting(a_.mesh), resting(b_.mesh)});
     compare_animations();

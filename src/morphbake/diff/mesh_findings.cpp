@@ -8,6 +8,7 @@
 #include <array>
 #include <set>
 
+#include "morphbake/diagnostics/counted.h"
 #include "morphbake/gltf/vertex_attributes.h"
 
 namespace morphbake {
@@ -218,15 +219,16 @@ void compare_target_names(Comparison& comparison) {
   const std::vector<std::string>& b = comparison.b.mesh.target_names;
   if (a == b) return;
   if (a.size() != b.size()) {
-    return comparison.mention("targets",
-                              fmt::format("{} morph targets against {}", a.size(), b.size()));
+    return comparison.mention(
+        "targets", fmt::format("{} against {}",
+                               counted(static_cast<int>(a.size()), "morph target", "morph targets"),
+                               b.size()));
   }
   const auto [in_a, in_b] = std::mismatch(a.begin(), a.end(), b.begin());
   comparison.mention("targets", fmt::format("morph target {} is called {} against {}",
                                             in_a - a.begin(), quoted(*in_a), quoted(*in_b)));
 }
 
-/// Bounds of rows, which are one at least.
 Eigen::AlignedBox3f bounds_of(const Float3s& rows) {
   Eigen::AlignedBox3f box;
   for (Eigen::Index v = 0; v < rows.rows(); ++v) {
@@ -239,13 +241,11 @@ Eigen::AlignedBox3f bounds_of(const Float3s& rows) {
 std::vector<std::string> wrong_bounds(const OpenMesh& open) {
   std::vector<std::string> wrong;
   for (const StatedBounds& stated : stated_bounds(open.file, open.at.mesh)) {
-    const AnimatedPrimitive& primitive = open.mesh.primitives[stated.primitive];
     const bool is_base = stated.target < 0;
-    const Float3s& rows = is_base
-                              ? primitive.positions
-                              : primitive.target_positions[static_cast<std::size_t>(stated.target)];
-    if (rows.rows() == 0) continue;
-    const Eigen::AlignedBox3f box = bounds_of(rows);
+    const Eigen::AlignedBox3f box =
+        is_base ? bounds_of(open.mesh.primitives[stated.primitive].positions)
+                : open.targets.bounds(stated.primitive, static_cast<std::size_t>(stated.target));
+    if (box.isEmpty()) continue;
     const Eigen::Vector3d min = box.min().cast<double>(), max = box.max().cast<double>();
     const double rounding =
         kBoundsRounding * std::max(min.cwiseAbs().maxCoeff(), max.cwiseAbs().maxCoeff());
@@ -297,7 +297,9 @@ std::vector<Finding> mesh_findings(const OpenMesh& a, const OpenMesh& b,
   const std::vector<AnimatedPrimitive>&in_a = a.mesh.primitives, &in_b = b.mesh.primitives;
   if (in_a.size() != in_b.size()) {
     comparison.differ("primitives",
-                      fmt::format("{} primitives against {}", in_a.size(), in_b.size()));
+                      fmt::format("{} against {}",
+                                  counted(static_cast<int>(in_a.size()), "primitive", "primitives"),
+                                  in_b.size()));
   }
   const std::vector<PrimitiveFacts> facts_a = primitive_facts(a.file, a.at.mesh);
   const std::vector<PrimitiveFacts> facts_b = primitive_facts(b.file, b.at.mesh);

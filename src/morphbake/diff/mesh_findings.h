@@ -12,7 +12,8 @@ namespace morphbake {
 struct OpenMesh {
   GltfFile file;
   ShownMesh at;
-  AnimatedMesh mesh;
+  AnimatedMesh mesh;  ///< without the rows of its targets
+  TargetRows targets;
 };
 
 /// The primitives that both have and that have as many vertices.

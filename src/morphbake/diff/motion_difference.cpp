@@ -10,7 +10,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstring>
 #include <limits>
 #include <numbers>
 
@@ -39,12 +38,6 @@ ActiveTargets active_at(const AnimationCurve& curve, double time) {
   return active;
 }
 
-/// One attribute of one file in a primitive.
-struct MorphedAttribute {
-  const Float3s& base;
-  const std::vector<Float3s>& targets;
-};
-
 /// Vertices of a primitive that are compared together.
 struct Block {
   std::size_t primitive = 0;
@@ -53,69 +46,53 @@ struct Block {
   Eigen::Index first = 0;  ///< row of `begin` in VertexDifferences
 };
 
-const float* numbers_of(const Float3s& rows, const Block& block) {
-  return rows.data() + 3 * block.begin;
-}
-
-/// Which targets move a vertex of the block at all.
-std::vector<bool> moving_targets(const MorphedAttribute& attribute, const Block& block) {
-  std::vector<bool> moves;
-  for (const Float3s& target : attribute.targets) {
-    const bool has_rows = target.rows() > 0;
-    const float* first = has_rows ? numbers_of(target, block) : nullptr;
-    moves.push_back(has_rows && std::any_of(first, first + 3 * block.count,
-                                            [](float number) { return number != 0; }));
-  }
-  return moves;
-}
+using Numbers = Eigen::VectorXf;  // 3 a vertex
 
 /// A block of an attribute of one file, to be posed.
 class BlockPose {
  public:
-  BlockPose(const MorphedAttribute& attribute, const Block& block)
-      : attribute_(attribute), block_(block), moves_(moving_targets(attribute, block)) {}
+  /// @param base  of the whole primitive
+  BlockPose(const Float3s& base, const TargetRows& targets, const Block& block,
+            MorphedAttribute attribute)
+      : base_(Eigen::Map<const Numbers>(base.data() + 3 * block.begin, 3 * block.count)),
+        targets_(targets.count()) {
+    Numbers numbers(3 * block.count);
+    for (std::size_t k = 0; k < targets_.size(); ++k) {
+      const TargetPlace place{block.primitive, k, attribute};
+      if (!targets.has(place)) continue;
+      targets.read(place, block.begin, block.count, numbers.data());
+      if (!numbers.isZero(0)) targets_[k] = numbers;
+    }
+  }
 
   bool moves_at_all() const {
-    return std::find(moves_.begin(), moves_.end(), true) != moves_.end();
+    return std::ranges::any_of(targets_, [](const Numbers& target) { return target.size() > 0; });
   }
 
   /// Base plus weighted targets, mesh space: 3 numbers a vertex.
   void pose(const ActiveTargets& active, Eigen::VectorXd& numbers) const {
-    using Numbers = Eigen::Map<const Eigen::VectorXf>;
-    const Eigen::Index size = 3 * block_.count;
-    numbers = Numbers(numbers_of(attribute_.base, block_), size).cast<double>();
+    numbers = base_.cast<double>();
     for (const auto& [target, weight] : active) {
-      if (target >= moves_.size() || !moves_[target]) continue;
-      const float* displacement = numbers_of(attribute_.targets[target], block_);
-      numbers += weight * Numbers(displacement, size).cast<double>();
+      if (targets_[target].size() > 0) numbers += weight * targets_[target].cast<double>();
     }
   }
 
-  /// Whether both have the same bytes, so that equal weights give equal numbers.
+  /// Whether both have the same numbers, so that equal weights give equal shapes.
   bool is_same_as(const BlockPose& other) const {
-    if (moves_ != other.moves_) return false;
-    if (!same_bytes(attribute_.base, other.attribute_.base)) return false;
-    for (std::size_t k = 0; k < moves_.size(); ++k) {
-      if (moves_[k] && !same_bytes(attribute_.targets[k], other.attribute_.targets[k]))
-        return false;
-    }
-    return true;
+    return base_ == other.base_ &&
+           std::ranges::equal(targets_, other.targets_, [](const Numbers& a, const Numbers& b) {
+             return a.size() == b.size() && a == b;
+           });
   }
 
  private:
-  bool same_bytes(const Float3s& a, const Float3s& b) const {
-    const std::size_t bytes = 3 * sizeof(float) * static_cast<std::size_t>(block_.count);
-    return std::memcmp(numbers_of(a, block_), numbers_of(b, block_), bytes) == 0;
-  }
-
-  MorphedAttribute attribute_;
-  Block block_;
-  std::vector<bool> moves_;  ///< one a target
+  Numbers base_;
+  std::vector<Numbers> targets_;  ///< one a target: none where it moves nothing of the block
 };
 
 /// What one file plays, prepared for all instants.
 struct PlayedFile {
-  const AnimatedMesh& mesh;
+  MorphingMesh morph;
   std::vector<ActiveTargets> active;  ///< one an instant
   Eigen::Matrix3d linear;             ///< to the scene
   Eigen::Vector3d offset;
@@ -133,13 +110,14 @@ Eigen::Matrix3d cofactors_of(const Eigen::Matrix3d& linear) {
   return cofactors;
 }
 
-PlayedFile played(const AnimatedMesh& mesh, const AnimationCurve& curve,
+PlayedFile played(const MorphingMesh& morph, const AnimationCurve& curve,
                   const std::vector<double>& times) {
-  PlayedFile file{mesh,
+  const Eigen::Matrix4d& to_scene = morph.mesh.to_scene;
+  PlayedFile file{morph,
                   {},
-                  mesh.to_scene.topLeftCorner<3, 3>(),
-                  mesh.to_scene.topRightCorner<3, 1>(),
-                  cofactors_of(mesh.to_scene.topLeftCorner<3, 3>()),
+                  to_scene.topLeftCorner<3, 3>(),
+                  to_scene.topRightCorner<3, 1>(),
+                  cofactors_of(to_scene.topLeftCorner<3, 3>()),
                   false,
                   {},
                   {}};
@@ -237,12 +215,19 @@ struct Comparing {
   }
 };
 
-MorphedAttribute positions_of(const AnimatedPrimitive& primitive) {
-  return {primitive.positions, primitive.target_positions};
+const AnimatedPrimitive& primitive_of(const PlayedFile& file, const Block& block) {
+  return file.morph.mesh.primitives[block.primitive];
 }
 
-MorphedAttribute normals_of(const AnimatedPrimitive& primitive) {
-  return {primitive.normals, primitive.target_normals};
+bool has_normals(const PlayedFile& file, const Block& block) {
+  return primitive_of(file, block).normals.rows() > 0;
+}
+
+BlockPose pose_of(const PlayedFile& file, const Block& block, MorphedAttribute attribute) {
+  const AnimatedPrimitive& primitive = primitive_of(file, block);
+  const bool is_normal = attribute == MorphedAttribute::Normal;
+  return {is_normal ? primitive.normals : primitive.positions, file.morph.targets, block,
+          attribute};
 }
 
 using Points = Eigen::Map<const Eigen::Matrix3Xd>;
@@ -264,8 +249,8 @@ void keep_larger(double value, double sampling, const Block& block, Eigen::Index
 
 void compare_positions(const Comparing& comparing, const Block& block,
                        Eigen::Ref<Eigen::VectorXd> distances, LargestDifference& largest) {
-  const BlockPose a(positions_of(comparing.a.mesh.primitives[block.primitive]), block);
-  const BlockPose b(positions_of(comparing.b.mesh.primitives[block.primitive]), block);
+  const BlockPose a = pose_of(comparing.a, block, MorphedAttribute::Position);
+  const BlockPose b = pose_of(comparing.b, block, MorphedAttribute::Position);
   const bool is_same = a.is_same_as(b);
   SamplingSlack slack_a(comparing.a, a), slack_b(comparing.b, b);
   Eigen::VectorXd of_a, of_b, slack(block.count);
@@ -296,10 +281,9 @@ void compare_positions(const Comparing& comparing, const Block& block,
 /// @param turns  see turn_of
 void compare_normals(const Comparing& comparing, const Block& block,
                      Eigen::Ref<Eigen::VectorXd> turns, LargestDifference& largest) {
-  const AnimatedPrimitive& in_a = comparing.a.mesh.primitives[block.primitive];
-  const AnimatedPrimitive& in_b = comparing.b.mesh.primitives[block.primitive];
-  if (in_a.normals.rows() == 0 || in_b.normals.rows() == 0) return;
-  const BlockPose a(normals_of(in_a), block), b(normals_of(in_b), block);
+  if (!has_normals(comparing.a, block) || !has_normals(comparing.b, block)) return;
+  const BlockPose a = pose_of(comparing.a, block, MorphedAttribute::Normal);
+  const BlockPose b = pose_of(comparing.b, block, MorphedAttribute::Normal);
   const bool is_same = a.is_same_as(b);
   Eigen::VectorXd of_a, of_b;
   const std::size_t instants = instants_that_differ(comparing, a, b);
@@ -324,7 +308,7 @@ std::vector<Block> blocks_of(const MeshPair& meshes) {
   std::vector<Block> blocks;
   Eigen::Index first = 0;
   for (const std::size_t primitive : meshes.primitives) {
-    const Eigen::Index rows = meshes.a.primitives[primitive].positions.rows();
+    const Eigen::Index rows = meshes.a.mesh.primitives[primitive].positions.rows();
     for (Eigen::Index begin = 0; begin < rows; begin += kBlock) {
       blocks.push_back({primitive, begin, std::min(kBlock, rows - begin), first + begin});
     }
@@ -343,7 +327,7 @@ Comparing prepare(const MeshPair& meshes, const CurvePair& curves, const MotionO
     is_key[1].push_back(instant.is_key_b);
   }
   Comparing comparing{played(meshes.a, curves.a, times[0]), played(meshes.b, curves.b, times[1]),
-                      times[0], meshes.a.to_scene == meshes.b.to_scene};
+                      times[0], meshes.a.mesh.to_scene == meshes.b.mesh.to_scene};
   if (!options.allows_sampling || have_same_keys(curves)) return comparing;
   if (is_sampled(curves.a)) find_intervals(curves.a, times[0], is_key[0], comparing.a);
   if (is_sampled(curves.b)) find_intervals(curves.b, times[1], is_key[1], comparing.b);
@@ -394,7 +378,8 @@ MotionDifference compare_motions(const MeshPair& meshes, const CurvePair& curves
 
 VertexDifferences no_differences(const MeshPair& meshes) {
   Eigen::Index rows = 0;
-  for (const std::size_t p : meshes.primitives) rows += meshes.a.primitives[p].positions.rows();
+  for (const std::size_t p : meshes.primitives)
+    rows += meshes.a.mesh.primitives[p].positions.rows();
   return {Eigen::VectorXd::Zero(rows), Eigen::VectorXd::Zero(rows)};
 }
 

@@ -6,13 +6,20 @@
 #include "morphbake/diagnostics/observer.h"
 #include "morphbake/diff/instants.h"
 #include "morphbake/gltf/animated_mesh.h"
+#include "morphbake/gltf/target_rows.h"
 
 namespace morphbake {
 
+/// A mesh and its targets, of which its own primitives need have none.
+struct MorphingMesh {
+  const AnimatedMesh& mesh;
+  const TargetRows& targets;
+};
+
 /// Two meshes that have primitives of as many vertices.
 struct MeshPair {
-  const AnimatedMesh& a;
-  const AnimatedMesh& b;
+  MorphingMesh a;
+  MorphingMesh b;
   std::vector<std::size_t> primitives;  ///< those that both have and that have as many vertices
 };
 
@@ -51,8 +58,8 @@ struct MotionOptions {
 ///
 /// @param vertices  receives the larger of what it has and what is found here
 /// @throws Cancelled
-/// @cost   O(#instants sum of active targets #R); memory for some thousand vertices at a time, and
-///         for the weights of all instants
+/// @cost   O(#instants sum of active targets #R); memory for a thousand vertices a thread, with all
+///         of their targets, and for the weights of all instants
 MotionDifference compare_motions(const MeshPair& meshes, const CurvePair& curves,
                                  const MotionOptions& options, VertexDifferences& vertices,
                                  const Observer& observer);

@@ -65,6 +65,10 @@ AnimatedMesh read_animated_mesh(const std::filesystem::path& file, const MeshCho
 AnimatedMesh read_animated_mesh(const GltfFile& file, const MeshChoice& choice = {},
                                 const NameOrIndex& animation = {});
 
+/// The same without its targets' rows, which TargetRows reads in parts: as many rows as frames
+/// would be all frames in memory.
+AnimatedMesh read_base_mesh(const GltfFile& file, const MeshChoice& choice = {});
+
 /// What one animation of a file does to the weights of a node.
 struct WeightsAnimation {
   int index = 0;  ///< of the file

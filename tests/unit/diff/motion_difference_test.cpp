@@ -19,7 +19,8 @@ struct Compared {
 };
 
 Compared compare(const AnimatedMesh& a, const AnimatedMesh& b, const MotionOptions& options = {}) {
-  const MeshPair meshes{a, b, {0}};
+  const TargetRows of_a(a), of_b(b);
+  const MeshPair meshes{{a, of_a}, {b, of_b}, {0}};
   Compared compared{{}, no_differences(meshes)};
   compared.motion = compare_motions(meshes, {a.weights, b.weights}, options, compared.vertices, {});
   return compared;
@@ -156,11 +157,12 @@ TEST(CompareMotions, OfNumbersThatOverflowIsVeryLargeAndNeverNothing) {
 
 TEST(CompareMotions, StopsWhenAsked) {
   const AnimatedMesh a = by_frames(24);
-  VertexDifferences vertices = no_differences({a, a, {0}});
+  const TargetRows targets(a);
+  const MeshPair meshes{{a, targets}, {a, targets}, {0}};
+  VertexDifferences vertices = no_differences(meshes);
   Observer observer;
   observer.is_cancelled = [] { return true; };
-  EXPECT_THROW(compare_motions({a, a, {0}}, {a.weights, a.weights}, {}, vertices, observer),
-               Cancelled);
+  EXPECT_THROW(compare_motions(meshes, {a.weights, a.weights}, {}, vertices, observer), Cancelled);
 }
 
 }  // namespace
