@@ -240,11 +240,13 @@ std::size_t instants_that_differ(const Comparing& comparing, const BlockPose& a,
   return a.moves_at_all() || b.moves_at_all() ? comparing.times.size() : 1;
 }
 
-void keep_larger(double value, double sampling, const Block& block, Eigen::Index v, double time,
-                 LargestDifference& largest) {
-  if (value <= largest.value) return;
-  largest = {value, time, static_cast<int>(block.primitive), static_cast<int>(block.begin + v),
-             sampling};
+/// The first one of the largest.
+void keep_larger(const LargestDifference& found, LargestDifference& largest) {
+  if (found.value > largest.value) largest = found;
+}
+
+LargestDifference difference_at(const Block& block, Eigen::Index v, double value, double time) {
+  return {value, time, static_cast<int>(block.primitive), static_cast<int>(block.begin + v), 0};
 }
 
 void compare_positions(const Comparing& comparing, const Block& block,
@@ -273,7 +275,9 @@ void compare_positions(const Comparing& comparing, const Block& block,
       const double beyond = distance - slack(v);
       if (beyond <= distances(v)) continue;
       distances(v) = beyond;
-      keep_larger(beyond, slack(v), block, v, comparing.times[i], largest);
+      LargestDifference found = difference_at(block, v, beyond, comparing.times[i]);
+      found.sampling = slack(v);
+      keep_larger(found, largest);
     }
   }
 }
@@ -299,7 +303,7 @@ void compare_normals(const Comparing& comparing, const Block& block,
                                         comparing.b.cofactors * normals_b.col(v));
       if (turn <= turns(v)) continue;
       turns(v) = turn;
-      keep_larger(turn, 0, block, v, comparing.times[i], largest);
+      keep_larger(difference_at(block, v, turn, comparing.times[i]), largest);
     }
   }
 }
@@ -332,11 +336,6 @@ Comparing prepare(const MeshPair& meshes, const CurvePair& curves, const MotionO
   if (is_sampled(curves.a)) find_intervals(curves.a, times[0], is_key[0], comparing.a);
   if (is_sampled(curves.b)) find_intervals(curves.b, times[1], is_key[1], comparing.b);
   return comparing;
-}
-
-/// The first one of the largest, whatever thread found them.
-void keep_larger(const LargestDifference& found, LargestDifference& largest) {
-  if (found.value > largest.value) largest = found;
 }
 
 }  // namespace

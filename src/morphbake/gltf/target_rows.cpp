@@ -7,6 +7,8 @@
 #include <array>
 #include <cassert>
 #include <cmath>
+#include <map>
+#include <utility>
 
 #include "morphbake/gltf/accessors.h"
 #include "morphbake/gltf/document.h"
@@ -14,7 +16,8 @@
 
 namespace morphbake {
 
-struct TargetRows::Source {
+/// Where one attribute of one target lies.
+struct TargetSource {
   Float3Rows rows;
   bool is_there = false;
   int accessor = -1;
@@ -37,8 +40,7 @@ Float3Rows in_memory(const Float3s& rows) {
 }
 
 /// Finds the bounds of all rows, and the first one that is not finite.
-template <typename Source>
-void look_through(Source& source) {
+void look_through(TargetSource& source) {
   std::array<float, 3 * kPart> numbers;
   source.first_bad = source.rows.count;
   for (std::size_t begin = 0; begin < source.rows.count; begin += kPart) {
@@ -55,52 +57,69 @@ void look_through(Source& source) {
   }
 }
 
+TargetSource source_in_file(const GltfDocument& document, const std::map<std::string, int>& target,
+                            const std::string& name, const std::string& pointer) {
+  const auto found = target.find(name);
+  if (found == target.end()) return {};
+  TargetSource source;
+  source.is_there = true;
+  source.accessor = found->second;
+  source.pointer = pointer + "/" + name;
+  source.rows = open_float3s(document, found->second, source.pointer);
+  return source;
+}
+
+/// Appends the targets of a primitive: position and normal of each.
+void append_sources(const GltfDocument& document, const tinygltf::Primitive& primitive,
+                    const std::string& pointer, std::vector<TargetSource>& sources) {
+  const auto position = primitive.attributes.find("POSITION");
+  if (position == primitive.attributes.end()) {
+    fail_at(document, pointer + "/attributes", "gltf.unsupported-primitive",
+            "the primitive has no POSITION");
+  }
+  const std::size_t vertices =
+      accessor_count(document, position->second, pointer + "/attributes/POSITION");
+  for (std::size_t t = 0; t < primitive.targets.size(); ++t) {
+    const std::string place = fmt::format("{}/targets/{}", pointer, t);
+    for (const auto& [name, accessor] : primitive.targets[t]) {
+      check_count(document, accessor, vertices, fmt::format("{}/{}", place, name));
+    }
+    for (const char* name : {"POSITION", "NORMAL"}) {
+      sources.push_back(source_in_file(document, primitive.targets[t], name, place));
+    }
+  }
+}
+
+void check_finite(const GltfDocument& document, const std::vector<TargetSource>& sources) {
+  for (const TargetSource& source : sources) {
+    if (source.first_bad == source.rows.count) continue;
+    fail_at(document, source.pointer, "gltf.not-finite",
+            fmt::format("element {} of accessor {} is not a finite number", source.first_bad,
+                        source.accessor));
+  }
+}
+
 }  // namespace
 
 TargetRows::TargetRows(const GltfFile& file, int mesh)
     : file_(file), count_(target_count(*file, mesh)) {
   const auto& primitives = file->model.meshes[static_cast<std::size_t>(mesh)].primitives;
-  std::vector<Source> sources;
+  std::vector<TargetSource> sources;
   for (std::size_t p = 0; p < primitives.size(); ++p) {
-    const std::string pointer = primitive_pointer(mesh, p);
-    const auto position = primitives[p].attributes.find("POSITION");
-    const std::size_t vertices =
-        position == primitives[p].attributes.end()
-            ? 0
-            : accessor_count(*file, position->second, pointer + "/attributes/POSITION");
-    for (std::size_t t = 0; t < count_; ++t) {
-      const std::string place = fmt::format("{}/targets/{}", pointer, t);
-      for (const auto& [name, accessor] : primitives[p].targets[t]) {
-        check_count(*file, accessor, vertices, fmt::format("{}/{}", place, name));
-      }
-      for (const char* name : {"POSITION", "NORMAL"}) {
-        Source& source = sources.emplace_back();
-        const auto found = primitives[p].targets[t].find(name);
-        if (found == primitives[p].targets[t].end()) continue;
-        source.is_there = true;
-        source.accessor = found->second;
-        source.pointer = fmt::format("{}/{}", place, name);
-        source.rows = open_float3s(*file, found->second, source.pointer);
-      }
-    }
+    append_sources(*file, primitives[p], primitive_pointer(mesh, p), sources);
   }
   tbb::parallel_for(std::size_t{0}, sources.size(),
                     [&](std::size_t i) { look_through(sources[i]); });
-  for (const Source& source : sources) {
-    if (source.first_bad == source.rows.count) continue;
-    fail_at(*file, source.pointer, "gltf.not-finite",
-            fmt::format("element {} of accessor {} is not a finite number", source.first_bad,
-                        source.accessor));
-  }
-  sources_ = std::make_shared<const std::vector<Source>>(std::move(sources));
+  check_finite(*file, sources);
+  sources_ = std::make_shared<const std::vector<TargetSource>>(std::move(sources));
 }
 
 TargetRows::TargetRows(const AnimatedMesh& mesh) : count_(mesh.target_names.size()) {
-  std::vector<Source> sources;
+  std::vector<TargetSource> sources;
   for (const AnimatedPrimitive& primitive : mesh.primitives) {
     for (std::size_t t = 0; t < count_; ++t) {
       for (const auto* targets : {&primitive.target_positions, &primitive.target_normals}) {
-        Source& source = sources.emplace_back();
+        TargetSource& source = sources.emplace_back();
         if (t >= targets->size() || (*targets)[t].rows() == 0) continue;
         source.is_there = true;
         source.rows = in_memory((*targets)[t]);
@@ -108,10 +127,10 @@ TargetRows::TargetRows(const AnimatedMesh& mesh) : count_(mesh.target_names.size
       }
     }
   }
-  sources_ = std::make_shared<const std::vector<Source>>(std::move(sources));
+  sources_ = std::make_shared<const std::vector<TargetSource>>(std::move(sources));
 }
 
-const TargetRows::Source& TargetRows::source_at(const TargetPlace& place) const {
+const TargetSource& TargetRows::source_at(const TargetPlace& place) const {
   const std::size_t attribute = place.attribute == MorphedAttribute::Normal ? 1 : 0;
   const std::size_t index = 2 * (place.primitive * count_ + place.target) + attribute;
   assert(place.target < count_ && index < sources_->size());

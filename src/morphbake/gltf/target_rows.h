@@ -19,6 +19,8 @@ struct TargetPlace {
   MorphedAttribute attribute = MorphedAttribute::Position;
 };
 
+struct TargetSource;
+
 /// The displacements of a mesh's morph targets, read in parts from where they are.
 ///
 /// Safe to be read by several threads at once.
@@ -51,13 +53,12 @@ class TargetRows {
   void read(const TargetPlace& place, Eigen::Index begin, Eigen::Index count, float* out) const;
 
  private:
-  struct Source;
-
-  const Source& source_at(const TargetPlace& place) const;
+  const TargetSource& source_at(const TargetPlace& place) const;
 
   GltfFile file_;  ///< none of a mesh in memory
   std::size_t count_ = 0;
-  std::shared_ptr<const std::vector<Source>> sources_;  ///< primitive by primitive, two a target
+  std::shared_ptr<const std::vector<TargetSource>>
+      sources_;  ///< primitive by primitive, two a target
 };
 
 }  // namespace morphbake
