@@ -135,8 +135,8 @@ TEST(CompareMotions, TellsTinyAnglesApart) {
   const AnimatedMesh a = still_sphere();
   AnimatedMesh b = a;
   const double angle = 1e-4;
-  b.primitives[0].normals.row(0) = Eigen::RowVector3f(std::sin(1e-4F), 0, std::cos(1e-4F));
-  ASSERT_EQ(a.primitives[0].normals.row(0), Eigen::RowVector3f::UnitZ());
+  b.primitives[0].normals.row(0) = Eigen::RowVector3f(std::sin(1e-4F), std::cos(1e-4F), 0);
+  ASSERT_EQ(a.primitives[0].normals.row(0), Eigen::RowVector3f::UnitY());
   EXPECT_NEAR(compare(a, b).motion.normal.value, angle * 180 / std::numbers::pi, 1e-6);
 }
 
