@@ -16,12 +16,13 @@ configure_package_config_file(
   ${PROJECT_SOURCE_DIR}/cmake/morphbake-config.cmake.in
   ${PROJECT_BINARY_DIR}/morphbake-config.cmake
   INSTALL_DESTINATION ${package_dir}
-  PATH_VARS MORPHBAKE_DATA_DIR)
+  PATH_VARS MORPHBAKE_DATA_DIR CMAKE_INSTALL_BINDIR)
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/morphbake-config-version.cmake
                                  COMPATIBILITY SameMinorVersion)
 install(FILES ${PROJECT_BINARY_DIR}/morphbake-config.cmake
               ${PROJECT_BINARY_DIR}/morphbake-config-version.cmake
               ${PROJECT_SOURCE_DIR}/cmake/morphbake-import.cmake
+              ${PROJECT_SOURCE_DIR}/cmake/morphbake-golden.cmake
         DESTINATION ${package_dir})
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/schemas ${PROJECT_SOURCE_DIR}/config
         DESTINATION ${MORPHBAKE_DATA_DIR}

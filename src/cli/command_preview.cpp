@@ -1,8 +1,5 @@
-#include <charconv>
 #include <filesystem>
-#include <map>
 #include <memory>
-#include <string_view>
 
 #include "cli/commands.h"
 #include "cli/comparison_text.h"
@@ -12,9 +9,6 @@
 
 namespace morphbake::cli {
 namespace {
-
-const std::map<std::string, PreviewFormat> kFormats = {
-    {"png", PreviewFormat::Png}, {"gif", PreviewFormat::Gif}, {"sheet", PreviewFormat::Sheet}};
 
 constexpr std::size_t kMostCompared = 6;  ///< beside one another they are still seen
 
@@ -38,37 +32,9 @@ struct Arguments {
   std::filesystem::path stem;
   std::string node;
   std::string animation;
-  std::string size = "512x512";
-  int frames = PreviewRequest{}.frames;
-  std::vector<std::string> formats = {"gif", "sheet"};
+  LoopArguments loop;
   std::vector<std::string> settings;
 };
-
-/// @return  whether `text` is a whole number of pixels that the renderer takes
-bool read_pixels(std::string_view text, int& pixels) {
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), pixels);
-  return error == std::errc() && end == text.data() + text.size() && pixels >= 16 && pixels <= 4096;
-}
-
-void read_size(const std::string& text, PreviewRequest& request) {
-  const std::size_t cross = text.find('x');
-  if (cross != std::string::npos && read_pixels(text.substr(0, cross), request.width) &&
-      read_pixels(text.substr(cross + 1), request.height)) {
-    return;
-  }
-  throw usage_error("--size: '" + text + "' is not a size",
-                    "write WIDTHxHEIGHT, each 16 to 4096 pixels: 512x512");
-}
-
-PreviewRequest request_of(const Arguments& arguments) {
-  PreviewRequest request;
-  read_size(arguments.size, request);
-  request.frames = arguments.frames;
-  for (const std::string& format : arguments.formats) {
-    request.formats.push_back(kFormats.at(format));
-  }
-  return request;
-}
 
 void check_file_count(const Arguments& arguments) {
   const std::size_t count = arguments.files.size();
@@ -90,7 +56,7 @@ std::filesystem::path stem_of(const Arguments& arguments, const char* suffix) {
 
 void show_one(const Arguments& arguments, Terminal& terminal) {
   const std::filesystem::path& file = arguments.files[0];
-  const PreviewRequest request = request_of(arguments);
+  const PreviewRequest request = request_of(arguments.loop);
   const BakeOptions options = read_options("{}", "", arguments.settings);
   for (const std::filesystem::path& picture :
        preview({file, file, stem_of(arguments, ""), name_or_index(arguments.node),
@@ -101,7 +67,7 @@ void show_one(const Arguments& arguments, Terminal& terminal) {
 }
 
 void show_several(const Arguments& arguments, Terminal& terminal) {
-  const PreviewRequest request = request_of(arguments);
+  const PreviewRequest request = request_of(arguments.loop);
   const BakeOptions options = read_options("{}", "", arguments.settings);
   const Comparison comparison =
       compare_morphs({arguments.files, stem_of(arguments, ".compare"),
@@ -140,16 +106,7 @@ Command add_preview(CLI::App& program) {
   parser->add_option("--animation", arguments->animation,
                      "The animation to play, by its name in the file or its index from 0 "
                      "(default: the last one that moves the mesh's weights)");
-  parser->add_option("--size", arguments->size, "WIDTHxHEIGHT in pixels, of each file")
-      ->capture_default_str();
-  parser->add_option("--frames", arguments->frames, "Pictures in the loop")
-      ->check(CLI::Range(1, 10000))
-      ->capture_default_str();
-  parser->add_option("--formats", arguments->formats, "png, gif, sheet, with commas between")
-      ->check(CLI::IsMember({"png", "gif", "sheet"}))
-      ->delimiter(',')
-      ->allow_extra_args(false)  // what follows is a file
-      ->capture_default_str();
+  add_loop(*parser, arguments->loop);
   add_settings(*parser, arguments->settings);
   parser->footer(kFooter);
   return {parser, [arguments](Terminal& terminal) { run_preview(*arguments, terminal); }};

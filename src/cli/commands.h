@@ -9,7 +9,9 @@
 #include <vector>
 
 #include "cli/terminal.h"
+#include "morphbake/diff/diff_options.h"
 #include "morphbake/gltf/mesh_choice.h"
+#include "morphbake/recipe/recipe.h"
 
 namespace morphbake::cli {
 
@@ -27,6 +29,8 @@ Command add_remesh(CLI::App& program);
 Command add_inspect(CLI::App& program);
 Command add_lint(CLI::App& program);
 Command add_preview(CLI::App& program);
+Command add_diff(CLI::App& program);
+Command add_golden(CLI::App& program);
 Command add_landmarks(CLI::App& program);
 Command add_config(CLI::App& program);
 
@@ -42,6 +46,23 @@ NameOrIndex name_or_index(const std::string& text);
 /// The schema of that name that came with this program, installed or as built in the source tree;
 /// empty when there is none.
 std::filesystem::path shipped_schema_file(const char* name);
+
+/// How a loop of pictures is asked for.
+struct LoopArguments {
+  std::string size = "512x512";
+  int frames = PreviewRequest{}.frames;
+  std::vector<std::string> formats = {"gif", "sheet"};
+};
+
+/// The options `--size`, `--frames` and `--formats`.
+void add_loop(CLI::App& parser, LoopArguments& loop);
+
+/// @throws BakeError "usage.bad-argument" for a size that is none
+PreviewRequest request_of(const LoopArguments& loop);
+
+/// The options `--tolerance`, `--relative`, `--normals`, `--attributes`, `--strict` and
+/// `--threads`.
+void add_tolerances(CLI::App& parser, DiffOptions& options);
 
 /// The error of a command line that cannot be meant: "usage.bad-argument".
 BakeError usage_error(const std::string& message, const std::string& hint);

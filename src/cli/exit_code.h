@@ -17,7 +17,7 @@ enum class ExitCode {
   CannotWrite = 6,
   Interrupted = 130,
 
-  // Of commands that judge: `lint`. Whatever keeps them from judging is Unjudged.
+  // Of commands that judge: `diff`, `golden`, `lint`. Whatever keeps them from judging is Unjudged.
   Same = 0,
   Different = 1,
   Unjudged = 2,

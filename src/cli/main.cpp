@@ -28,12 +28,14 @@ Examples:
   morphbake preview out/morph.glb            turntable of any morph glTF
   morphbake preview --compare a.glb b.glb    side by side, and how their shapes change
   morphbake lint a.glb --profile web-three   what a client would read wrong
+  morphbake diff old.glb new.glb             whether both show the same motion, and where not
+  morphbake golden recipe.json               bakes, and compares with results that were accepted
   morphbake landmarks suggest a.glb b.glb    points that correspond, with pictures
   morphbake config                           every option with its default
 
 Results go to stdout, everything else to stderr. NO_COLOR is respected.
 Exit codes: 0 done, 1 bug, 2 usage or recipe, 4 source mesh, 5 numerical,
-            6 cannot write, 130 interrupted; lint: 0 right, 1 wrong, 2 error
+            6 cannot write, 130 interrupted; diff, golden, lint: 0 right, 1 wrong, 2 error
 Documentation: docs/ and examples/ of the source; recipes: schemas/recipe.schema.json)";
 
 struct GlobalFlags {
@@ -72,7 +74,8 @@ std::string shown_error(const CLI::App& program, const CLI::ParseError& error,
   if (!program.get_subcommands().empty()) return error.what();
   if (command_word.empty()) return "no command given";
   return "'" + std::string(command_word) +
-         "' is no command; there are init, bake, validate, remesh, inspect, lint, preview, "
+         "' is no command; there are init, bake, validate, remesh, inspect, lint, preview, diff, "
+         "golden, "
          "landmarks, config";
 }
 
@@ -131,9 +134,9 @@ ExitCode run_program(int argc, char** argv, Terminal& terminal) {
   GlobalFlags flags;
   add_global_flags(program, flags);
   const std::vector<Command> commands = {
-      add_init(program),    add_bake(program),      add_validate(program),
-      add_remesh(program),  add_inspect(program),   add_lint(program),
-      add_preview(program), add_landmarks(program), add_config(program)};
+      add_init(program),    add_bake(program),      add_validate(program), add_remesh(program),
+      add_inspect(program), add_lint(program),      add_preview(program),  add_diff(program),
+      add_golden(program),  add_landmarks(program), add_config(program)};
   try {
     program.parse(argc, argv);
   } catch (const CLI::CallForVersion&) {

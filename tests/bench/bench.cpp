@@ -1,5 +1,5 @@
 // bench [NAME...] [> TABLE]: measures everything, or what is named: solve, regions, eigenvectors,
-// load, targets, export, preview. With --json FILE first it writes the figures there as well.
+// load, targets, export, preview, diff. With --json FILE first it writes the figures there as well.
 
 #include <fmt/core.h>
 #include <malloc.h>
@@ -85,6 +85,7 @@ int main(int argc, char** argv) {
       {"targets", [](Figures& figures) { bench_targets(100000, 240, figures); }},
       {"export", [](Figures& figures) { bench_export(100000, figures); }},
       {"preview", [](Figures& figures) { bench_preview(100000, figures); }},
+      {"diff", [](Figures& figures) { bench_diff(100000, figures); }},
   };
   Figures figures;
   for (const auto& [name, measure] : all) {

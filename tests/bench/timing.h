@@ -50,5 +50,6 @@ void bench_load(int vertices, Figures& figures);
 void bench_targets(int vertices, int frames, Figures& figures);
 void bench_export(int vertices, Figures& figures);
 void bench_preview(int vertices, Figures& figures);
+void bench_diff(int vertices, Figures& figures);
 
 }  // namespace morphbake::bench

@@ -86,6 +86,7 @@ const words = {
   preview: (folder) => ['preview', join(folder, 'bad.gltf'), '--size', '16x16', '--frames', '2', '-o', join(folder, 'out/bad')],
   inspect: (folder) => ['inspect', join(folder, 'bad.gltf')],
   lint: (folder) => ['lint', join(folder, 'bad.gltf'), '--profile', 'spec-min'],
+  diff: (folder) => ['diff', join(folder, 'bad.gltf'), join(folder, 'bad.gltf')],
 };
 
 /** Problems of one case: [] when all is as it must be. */
@@ -111,6 +112,7 @@ async function check(name, command, [change, ...texts], { choice, mayBeRead = fa
   if (inspected) {
     problems.push(...(await run(name, folder, words.inspect(folder))).problems);
     problems.push(...(await run(name, folder, words.lint(folder), [0, 1, 2])).problems);
+    problems.push(...(await run(name, folder, words.diff(folder), [0, 1, 2])).problems);
   }
   return problems.length ? [...problems, done.stderr.trim().slice(0, 2000)] : [];
 }
@@ -120,7 +122,7 @@ const cases = (files, kind, command, rules = {}) =>
 
 const all = [
   ...cases([container, packed], 'baked', 'bake'),
-  // Inspect and lint read more of a file than a bake does: they must end well, however they end.
+  // Inspect, lint and diff read more of a file than a bake does: they must end well, however they end.
   ...cases([accessors, scene, huge], 'baked', 'bake', { inspected: true }),
   ...Object.entries(scene.chosen).map(([name, [choice, ...definition]]) => ({ name, definition, command: 'bake', rules: { choice } })),
   ...Object.entries(huge.chosen).map(([name, [choice, ...definition]]) => ({ name, definition, command: 'bake', rules: { choice, mayBeRead: true } })),

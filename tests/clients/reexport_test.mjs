@@ -47,6 +47,10 @@ async function testPair(set) {
   checks.check(errorsIn(issues).length === 0, `${set}: Blender's file is not legal: ${errorsIn(issues)}`);
   bake(morphbake, writeRecipe(set, folder), path.join(output, 'baked'));
   const file = path.join(output, 'baked', `${set}.glb`);
+  for (const [second, expected] of [[source, 0], [file, 1]]) {
+    const { status, stderr } = spawnSync(morphbake, ['diff', source, second], { encoding: 'utf8' });
+    checks.check(status === expected, `${set}: diff of Blender's file and ${second} ends with ${status}: ${stderr}`);
+  }
   for (const issue of newIssues(issues, await countIssues(file))) checks.check(false, `${set}: ${issue}`);
   const [a, b, baked] = await Promise.all([source, goal, file].map(openPlain));
   const node = a.json.nodes.findIndex(({ mesh }) => mesh !== undefined);

@@ -18,13 +18,35 @@ if(KIND STREQUAL "shared")
 endif()
 run(${CMAKE_COMMAND} --install ${BUILT} --prefix ${prefix})
 run(${CMAKE_COMMAND} -S ${CMAKE_CURRENT_LIST_DIR}/consumer -B ${SCRATCH}/consumer -G Ninja
-    -DCMAKE_PREFIX_PATH=${prefix} -DCMAKE_BUILD_TYPE=Release)
+    -DCMAKE_PREFIX_PATH=${prefix} -DCMAKE_BUILD_TYPE=Release
+    -DRECIPE=${ROOT}/tests/cli/good_recipe/recipe.json)
 run(${CMAKE_COMMAND} --build ${SCRATCH}/consumer)
 run(${SCRATCH}/consumer/consumer ${ROOT}/tests/cli/good_recipe/recipe.json ${SCRATCH}/consumer/out)
 if(NOT EXISTS ${SCRATCH}/consumer/out/tetrahedra.glb)
   message(SEND_ERROR "the consumer has baked nothing")
 endif()
 run(${prefix}/bin/morphbake --version)
+
+# morphbake_add_golden: a test that fails as long as nothing is stored, and passes from then on.
+function(golden_test_is expected)
+  execute_process(COMMAND ${CMAKE_CTEST_COMMAND} --test-dir ${SCRATCH}/consumer -R golden.consumer
+                          --no-tests=error OUTPUT_VARIABLE output ERROR_VARIABLE output
+                  RESULT_VARIABLE code)
+  if((code EQUAL 0 AND expected) OR (NOT code EQUAL 0 AND NOT expected))
+    return()
+  endif()
+  message(SEND_ERROR "golden.consumer: ${code}, but passing is to be ${expected}: ${output}")
+endfunction()
+golden_test_is(FALSE)
+if(NOT EXISTS ${SCRATCH}/consumer/golden-differences/consumer/junit.xml)
+  message(SEND_ERROR "golden.consumer has written no JUnit file")
+endif()
+if(EXISTS ${SCRATCH}/consumer/golden)
+  message(SEND_ERROR "golden.consumer has stored something")
+endif()
+run(${prefix}/bin/morphbake golden ${ROOT}/tests/cli/good_recipe/recipe.json --golden-dir
+    ${SCRATCH}/consumer/golden --accept)
+golden_test_is(TRUE)
 foreach(file IN ITEMS share/morphbake/schemas/recipe.schema.json share/morphbake/config/bake.json
                         share/morphbake/config/profiles/web-three.json)
   if(EXISTS ${ROOT}/schemas AND NOT EXISTS ${prefix}/${file})

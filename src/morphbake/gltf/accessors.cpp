@@ -318,6 +318,35 @@ Float3s read_float3s(const GltfDocument& document, int index, const std::string&
   return read_rows<Float3s>(document, index, pointer);
 }
 
+Float3Rows open_float3s(const GltfDocument& document, int index, const std::string& pointer) {
+  check_components(document, index, 3, pointer);
+  const tinygltf::Accessor& accessor = document.model.accessors[static_cast<std::size_t>(index)];
+  const ElementSpan span = element_span(document, index, pointer);
+  Float3Rows rows{span.first,          span.stride, span.count, accessor.componentType,
+                  accessor.normalized, {},          nullptr,    0};
+  if (!is_sparse(document, index)) return rows;
+  SparseElements sparse =
+      sparse_elements(document, index, 3 * component_bytes(accessor.componentType));
+  rows.sparse_rows = std::move(sparse.rows);
+  rows.sparse_values = sparse.values.first;
+  rows.sparse_stride = sparse.values.stride;
+  return rows;
+}
+
+void read_part(const Float3Rows& rows, std::size_t begin, std::size_t count, float* out) {
+  const unsigned char* first = rows.first ? rows.first + begin * rows.stride : nullptr;
+  convert_span({first, rows.stride, count}, rows.component_type, rows.is_normalised, 3, out);
+  if (rows.sparse_rows.empty()) return;
+  const Conversion conversion = conversion_from(rows.component_type);
+  const auto& replaced = rows.sparse_rows;
+  for (auto row = std::ranges::lower_bound(replaced, begin); row != replaced.end(); ++row) {
+    if (*row >= begin + count) break;
+    const auto i = static_cast<std::size_t>(row - replaced.begin());
+    conversion(rows.sparse_values + i * rows.sparse_stride, 3, rows.is_normalised,
+               out + 3 * (*row - begin));
+  }
+}
+
 std::size_t index_count(const GltfDocument& document, int index, const std::string& pointer) {
   const tinygltf::Accessor& accessor = accessor_at(document, index, pointer);
   if (!is_unsigned(accessor.componentType) || accessor.type != TINYGLTF_TYPE_SCALAR) {

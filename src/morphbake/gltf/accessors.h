@@ -43,6 +43,28 @@ std::vector<float> read_floats(const GltfDocument& document, int accessor, int c
 Float2s read_float2s(const GltfDocument& document, int accessor, const std::string& pointer);
 Float3s read_float3s(const GltfDocument& document, int accessor, const std::string& pointer);
 
+/// VEC3 elements of an accessor where they lie in the file, to be read in parts.
+struct Float3Rows {
+  const unsigned char* first = nullptr;  ///< null when all are 0
+  std::size_t stride = 0;                ///< bytes
+  std::size_t count = 0;
+  int component_type = 0;  ///< as in the file
+  bool is_normalised = false;
+  std::vector<std::uint32_t> sparse_rows;        ///< rising: rows that are replaced
+  const unsigned char* sparse_values = nullptr;  ///< by what
+  std::size_t sparse_stride = 0;                 ///< bytes
+};
+
+/// Checks where they lie; their numbers are not looked at.
+///
+/// @throws BakeError "gltf.accessor", "gltf.too-large"
+Float3Rows open_float3s(const GltfDocument& document, int accessor, const std::string& pointer);
+
+/// Reads `count` rows from `begin` on, as read_float3s does but without checking them.
+///
+/// @param out  3 count numbers
+void read_part(const Float3Rows& rows, std::size_t begin, std::size_t count, float* out);
+
 /// Elements of an accessor of unsigned SCALARs, which are all there.
 ///
 /// @throws BakeError "gltf.accessor", "gltf.too-large"

@@ -125,8 +125,10 @@ void read_material(const GltfDocument& document, const tinygltf::Primitive& sour
   if (primitive.texture_coordinates.rows() == 0) primitive.image = -1;
 }
 
+enum class ReadTargets { Yes, No };
+
 AnimatedPrimitive read_primitive(const GltfDocument& document, const tinygltf::Primitive& source,
-                                 const std::string& pointer) {
+                                 const std::string& pointer, ReadTargets targets) {
   PrimitiveGeometry geometry = read_primitive_geometry(document, source, pointer);
   AnimatedPrimitive primitive;
   primitive.positions = std::move(geometry.positions);
@@ -134,6 +136,7 @@ AnimatedPrimitive read_primitive(const GltfDocument& document, const tinygltf::P
   primitive.triangles = std::move(geometry.triangles);
   const Eigen::Index vertices = primitive.positions.rows();
   primitive.colours = read_colours(document, source.attributes, vertices, pointer + "/attributes");
+  if (targets == ReadTargets::No) return primitive;
   for (std::size_t t = 0; t < source.targets.size(); ++t) {
     TargetGeometry target = read_target(document, source, t, vertices, pointer);
     primitive.target_positions.push_back(std::move(target.positions));
@@ -180,7 +183,8 @@ AnimationCurve chosen_weights(const GltfDocument& document, int node, int target
           "`morphbake inspect` lists those that do");
 }
 
-WrittenMesh read_mesh(const GltfDocument& document, const MeshNode& at, std::size_t clips) {
+WrittenMesh read_mesh(const GltfDocument& document, const MeshNode& at, std::size_t clips,
+                      ReadTargets read_targets = ReadTargets::Yes) {
   const tinygltf::Mesh& source = document.model.meshes[static_cast<std::size_t>(at.mesh)];
   const std::size_t targets = target_count(document, at.mesh);
   AnimatedMesh mesh;
@@ -189,7 +193,8 @@ WrittenMesh read_mesh(const GltfDocument& document, const MeshNode& at, std::siz
   UsedImages images;
   for (std::size_t p = 0; p < source.primitives.size(); ++p) {
     const std::string pointer = primitive_pointer(at.mesh, p);
-    mesh.primitives.push_back(read_primitive(document, source.primitives[p], pointer));
+    mesh.primitives.push_back(
+        read_primitive(document, source.primitives[p], pointer, read_targets));
     read_material(document, source.primitives[p], pointer, images, mesh.primitives.back());
   }
   mesh.images = std::move(images.bytes);
@@ -200,6 +205,7 @@ WrittenMesh read_mesh(const GltfDocument& document, const MeshNode& at, std::siz
   std::vector<AnimationCurve> curves =
       last_weights(document, at.node, static_cast<int>(rest.size()), clips);
   if (curves.empty()) curves.push_back(constant_weights(rest));
+  mesh.rest_weights = rest;
   mesh.weights = curves.back();
   return {std::move(mesh), std::move(curves)};
 }
@@ -223,6 +229,12 @@ AnimatedMesh read_animated_mesh(const GltfFile& file, const MeshChoice& choice,
   return mesh;
 }
 
+AnimatedMesh read_base_mesh(const GltfFile& file, const MeshChoice& choice) {
+  const MeshNode at = choose_mesh_node(*file, choice, Ambiguity::TakeFirst);
+  check_mesh_size(*file, at.mesh);
+  return read_mesh(*file, at, 1, ReadTargets::No).mesh;
+}
+
 std::vector<WeightsAnimation> weights_animations(const GltfFile& file, int node) {
   std::vector<WeightsAnimation> found;
   std::map<int, WeightsAnimation> by_input;  // keys that many animations may share
@@ -243,6 +255,11 @@ std::vector<WeightsAnimation> weights_animations(const GltfFile& file, int node)
     animation.name = animations[a].name;
   }
   return found;
+}
+
+AnimationCurve weights_curve(const GltfFile& file, int node, int animation) {
+  const int mesh = file->model.nodes[static_cast<std::size_t>(node)].mesh;
+  return chosen_weights(*file, node, static_cast<int>(target_count(*file, mesh)), animation);
 }
 
 WrittenMesh read_written_mesh(const std::string& glb, const std::filesystem::path& name, int node,

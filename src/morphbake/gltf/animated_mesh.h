@@ -50,7 +50,8 @@ struct AnimatedMesh {
   std::vector<std::string> target_names;  ///< one a target, "" when the file names none
   std::vector<std::string> images;        ///< encoded bytes (PNG, JPEG) of the images that are used
   std::vector<std::string> image_names;   ///< one an image, for messages: "a.glb#/images/0"
-  AnimationCurve weights;  ///< one number a target; without animation the weights at rest
+  AnimationCurve weights;        ///< one number a target; without animation the weights at rest
+  Eigen::VectorXd rest_weights;  ///< one a target: without any animation
 };
 
 /// Reads a node's mesh from a .glb or .gltf, with its targets and an animation of their weights.
@@ -65,6 +66,10 @@ AnimatedMesh read_animated_mesh(const std::filesystem::path& file, const MeshCho
 AnimatedMesh read_animated_mesh(const GltfFile& file, const MeshChoice& choice = {},
                                 const NameOrIndex& animation = {});
 
+/// The same without its targets' rows, which TargetRows reads in parts: as many rows as frames
+/// would be all frames in memory.
+AnimatedMesh read_base_mesh(const GltfFile& file, const MeshChoice& choice = {});
+
 /// What one animation of a file does to the weights of a node.
 struct WeightsAnimation {
   int index = 0;  ///< of the file
@@ -77,6 +82,12 @@ struct WeightsAnimation {
 ///
 /// @throws BakeError "gltf.invalid", "gltf.accessor"
 std::vector<WeightsAnimation> weights_animations(const GltfFile& file, int node);
+
+/// The weights that one of them gives: one number a target.
+///
+/// @param animation  WeightsAnimation::index
+/// @throws BakeError "gltf.no-such-animation", "gltf.invalid", "gltf.accessor", "gltf.not-finite"
+AnimationCurve weights_curve(const GltfFile& file, int node, int animation);
 
 /// What write_morph_glb() wrote.
 struct WrittenMesh {
