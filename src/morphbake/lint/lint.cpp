@@ -31,8 +31,8 @@ LintedMesh find_facts(const MeshSurvey& survey, const Observer& observer) {
   return facts;
 }
 
-TargetRows target_rows(const AnimatedMesh& mesh) {
-  TargetRows rows;
+TargetVertices target_rows(const AnimatedMesh& mesh) {
+  TargetVertices rows;
   for (const AnimatedPrimitive& primitive : mesh.primitives) {
     const auto& normals = primitive.target_normals;
     const bool has_normals =
@@ -140,7 +140,7 @@ std::vector<LintRule> lint_rules() {
 }
 
 std::vector<GpuMemory> gpu_memory(const std::vector<Profile>& profiles, const AnimatedMesh& mesh) {
-  const TargetRows rows = target_rows(mesh);
+  const TargetVertices rows = target_rows(mesh);
   std::vector<GpuMemory> memory;
   for (const Profile& profile : profiles) {
     const auto bytes = gpu_bytes(profile, rows);

@@ -167,7 +167,7 @@ std::optional<int> most_targets(const Profile& profile, bool with_normals) {
   return is_own ? profile.most_targets_with_normals : profile.most_targets;
 }
 
-std::optional<double> gpu_bytes(const Profile& profile, const TargetRows& rows) {
+std::optional<double> gpu_bytes(const Profile& profile, const TargetVertices& rows) {
   const bool is_known = (rows.plain == 0 || profile.gpu_bytes) &&
                         (rows.with_normals == 0 || profile.gpu_bytes_with_normals);
   if (!is_known || (!profile.gpu_bytes && !profile.gpu_bytes_with_normals)) return std::nullopt;

@@ -85,12 +85,12 @@ std::string profile_to_json(const Profile& profile);
 std::optional<int> most_targets(const Profile& profile, bool with_normals);
 
 /// Vertices times targets, summed over the primitives of a mesh.
-struct TargetRows {
+struct TargetVertices {
   double plain = 0;
   double with_normals = 0;  ///< of primitives whose targets have NORMAL
 };
 
 /// What the targets of a mesh take on the GPU, in bytes; none where it is not known.
-std::optional<double> gpu_bytes(const Profile& profile, const TargetRows& rows);
+std::optional<double> gpu_bytes(const Profile& profile, const TargetVertices& rows);
 
 }  // namespace morphbake
