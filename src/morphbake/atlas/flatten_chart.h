@@ -1,0 +1,26 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "morphbake/atlas/atlas.h"
+#include "morphbake/mesh/mesh.h"
+
+namespace morphbake {
+
+/// A disk of triangles in the plane, in the units of the surface.
+struct FlatChart {
+  std::vector<int> triangles;  ///< of the mesh
+  std::vector<int> of_corner;  ///< 3 #triangles -> row of `places`
+  PicturePlaces places;        ///< y upwards: counter-clockwise as seen from outside
+};
+
+/// Lays a disk flat as rigidly as possible, its whole area that of the surface.
+///
+/// @param triangles  a disk of the mesh; a single one is only laid down
+/// @return nothing when a triangle would be turned over, triangles overlap, or more than 2 % of the
+///         area would have less than half or more than twice the length the surface has in any
+///         direction
+std::optional<FlatChart> flatten_chart(const Mesh& mesh, const std::vector<int>& triangles);
+
+}  // namespace morphbake

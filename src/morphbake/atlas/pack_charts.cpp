@@ -1,0 +1,223 @@
+#include "morphbake/atlas/pack_charts.h"
+
+#include <CGAL/Simple_cartesian.h>
+#include <CGAL/convex_hull_2.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <numeric>
+#include <optional>
+#include <set>
+#include <utility>
+
+namespace morphbake {
+namespace {
+
+using Kernel = CGAL::Simple_cartesian<double>;
+
+constexpr int kScaleSteps = 14;         // of a bisection
+constexpr double kFirstShare = 0.95;    // of the square: no packing is denser
+constexpr int kPlaces = 512;            // places tried along the skyline, at least
+
+std::vector<Eigen::Vector2d> hull_of(const PicturePlaces& places) {
+  std::vector<Kernel::Point_2> points, hull;
+  for (const auto place : places.rowwise()) points.emplace_back(place(0), place(1));
+  CGAL::convex_hull_2(points.begin(), points.end(), std::back_inserter(hull));
+  std::vector<Eigen::Vector2d> corners;
+  for (const Kernel::Point_2& point : hull) corners.emplace_back(point.x(), point.y());
+  return corners;
+}
+
+/// Turns the chart so that its box of least area stands upright, its corner at the origin. One side
+/// of that box lies along an edge of the convex hull (Freeman and Shapira 1975).
+void stand_upright(FlatChart& chart) {
+  const std::vector<Eigen::Vector2d> hull = hull_of(chart.places);
+  double least = std::numeric_limits<double>::infinity();
+  Eigen::Matrix2d turn = Eigen::Matrix2d::Identity();
+  for (std::size_t i = 0; i < hull.size(); ++i) {
+    const Eigen::Vector2d edge = hull[(i + 1) % hull.size()] - hull[i];
+    if (edge.norm() == 0) continue;
+    const Eigen::Vector2d x = edge.normalized(), y(-x.y(), x.x());
+    Eigen::Vector2d low = Eigen::Vector2d::Constant(std::numeric_limits<double>::infinity());
+    Eigen::Vector2d high = -low;
+    for (const Eigen::Vector2d& corner : hull) {
+      const Eigen::Vector2d at(x.dot(corner), y.dot(corner));
+      low = low.cwiseMin(at);
+      high = high.cwiseMax(at);
+    }
+    const Eigen::Vector2d extent = high - low;
+    if (extent.prod() >= least) continue;
+    least = extent.prod();
+    if (extent.x() <= extent.y()) {
+      turn << x.transpose(), y.transpose();
+    } else {
+      turn << -y.transpose(), x.transpose();
+    }
+  }
+  chart.places = (chart.places * turn.transpose()).eval();
+  const Eigen::RowVector2d corner = chart.places.colwise().minCoeff();
+  chart.places.rowwise() -= corner;
+}
+
+/// A chart in its box, and the edges of its border.
+struct Piece {
+  const PicturePlaces* places = nullptr;
+  std::vector<std::array<int, 2>> border;  ///< rows of places
+};
+
+Piece piece_of(const FlatChart& chart) {
+  Piece piece{&chart.places, {}};
+  std::set<std::array<int, 2>> sides;
+  for (std::size_t c = 0; c < chart.of_corner.size(); ++c) {
+    const std::size_t next = c % 3 == 2 ? c - 2 : c + 1;
+    const int a = chart.of_corner[c], b = chart.of_corner[next];
+    if (sides.erase({b, a}) == 0) sides.insert({a, b});
+  }
+  piece.border.assign(sides.begin(), sides.end());
+  return piece;
+}
+
+/// What a chart takes of each column of texels, with its padding. Rows count from its own corner.
+struct Outline {
+  std::vector<int> low;   ///< one a column: first row taken
+  std::vector<int> high;  ///< and the row after the last
+  int height = 0;
+
+  int width() const { return static_cast<int>(low.size()); }
+};
+
+/// Takes what lies within `padding` texels of the points of one column of texels.
+void take(Outline& outline, int column, double y0, double y1, int padding) {
+  const int low = static_cast<int>(std::floor(std::min(y0, y1)));
+  const int high = static_cast<int>(std::floor(std::max(y0, y1))) + 1 + 2 * padding;
+  for (int i = column; i <= column + 2 * padding; ++i) {
+    const auto at = static_cast<std::size_t>(i);
+    outline.low[at] = std::min(outline.low[at], low);
+    outline.high[at] = std::max(outline.high[at], high);
+  }
+  outline.height = std::max(outline.height, high);
+}
+
+/// Takes an edge, column by column.
+void take_edge(Outline& outline, Eigen::RowVector2d a, Eigen::RowVector2d b, int padding) {
+  if (a.x() > b.x()) std::swap(a, b);
+  const int first = static_cast<int>(std::floor(a.x())), last = static_cast<int>(std::floor(b.x()));
+  const double slope = first < last ? (b.y() - a.y()) / (b.x() - a.x()) : 0;
+  double y = a.y();
+  for (int column = first; column < last; ++column) {
+    const double next = a.y() + slope * (column + 1 - a.x());
+    take(outline, column, y, next, padding);
+    y = next;
+  }
+  take(outline, last, y, b.y(), padding);
+}
+
+Outline outline_of(const Piece& piece, double scale, int padding) {
+  Outline outline;
+  const double widest = piece.places->col(0).maxCoeff() * scale;
+  const auto width = static_cast<std::size_t>(std::floor(widest)) + 1;
+  outline.low.assign(width + 2 * static_cast<std::size_t>(padding), std::numeric_limits<int>::max());
+  outline.high.assign(outline.low.size(), 0);
+  for (const auto& [a, b] : piece.border) {
+    take_edge(outline, piece.places->row(a) * scale, piece.places->row(b) * scale, padding);
+  }
+  return outline;
+}
+
+/// Where a chart's outline goes.
+struct Spot {
+  int column = 0;
+  int row = 0;
+};
+
+/// The spot on the skyline that leaves the least below the chart and ends lowest.
+std::optional<Spot> best_spot(const Outline& outline, const std::vector<int>& skyline) {
+  const int size = static_cast<int>(skyline.size());
+  const int step = std::max(1, size / kPlaces);
+  std::optional<Spot> best;
+  std::int64_t least = std::numeric_limits<std::int64_t>::max();
+  for (int column = 0; column + outline.width() <= size; column += step) {
+    const int* top = skyline.data() + column;
+    int row = 0;
+    std::int64_t below = 0;
+    for (int i = 0; i < outline.width(); ++i) {
+      const int low = outline.low[static_cast<std::size_t>(i)];
+      row = std::max(row, top[i] - low);
+      below += low - top[i];
+    }
+    if (row + outline.height > size) continue;
+    below += std::int64_t{row} * outline.width();
+    // A row higher costs as much as leaving a row empty under the chart.
+    const std::int64_t cost = below + std::int64_t{row + outline.height} * outline.width();
+    if (cost >= least) continue;
+    least = cost;
+    best = Spot{column, row};
+  }
+  return best;
+}
+
+/// Spots of all pieces in turn, or nothing when one finds no room.
+std::optional<std::vector<Spot>> spots_of(const std::vector<Piece>& pieces, double scale, int size,
+                                          int padding) {
+  std::vector<int> skyline(static_cast<std::size_t>(size), 0);
+  std::vector<Spot> spots;
+  for (const Piece& piece : pieces) {
+    const Outline outline = outline_of(piece, scale, padding);
+    const auto spot = best_spot(outline, skyline);
+    if (!spot) return {};
+    std::transform(outline.high.begin(), outline.high.end(), skyline.begin() + spot->column,
+                   [&](int high) { return spot->row + high; });
+    spots.push_back(*spot);
+  }
+  return spots;
+}
+
+double area_of(const FlatChart& chart) {
+  double area = 0;
+  for (std::size_t c = 0; c < chart.of_corner.size(); c += 3) {
+    const auto place = [&](std::size_t k) { return chart.places.row(chart.of_corner[c + k]); };
+    const Eigen::RowVector2d a = place(1) - place(0), b = place(2) - place(0);
+    area += (a.x() * b.y() - a.y() * b.x()) / 2;
+  }
+  return area;
+}
+
+}  // namespace
+
+double pack_charts(std::vector<FlatChart>& charts, int size, int padding,
+                   const Observer& observer) {
+  double area = 0;
+  for (FlatChart& chart : charts) {
+    stand_upright(chart);
+    area += area_of(chart);
+  }
+  std::vector<std::size_t> order(charts.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return charts[a].places.col(1).maxCoeff() > charts[b].places.col(1).maxCoeff();
+  });
+  std::vector<Piece> pieces;
+  for (const std::size_t i : order) pieces.push_back(piece_of(charts[i]));
+  double most = area > 0 ? size * std::sqrt(kFirstShare / area) : 0, least = 0;
+  auto spots = spots_of(pieces, least, size, padding);
+  if (!spots) return 0;
+  for (int step = 0; step < kScaleSteps; ++step) {
+    stop_if_cancelled(observer);
+    const double middle = (least + most) / 2;
+    auto found = spots_of(pieces, middle, size, padding);
+    (found ? least : most) = middle;
+    if (found) spots = std::move(found);
+  }
+  for (std::size_t k = 0; k < order.size(); ++k) {
+    PicturePlaces& places = charts[order[k]].places;
+    places *= least;
+    places.col(0).array() += (*spots)[k].column + padding;
+    places.col(1).array() = size - ((*spots)[k].row + padding + places.col(1).array());
+  }
+  return least;
+}
+
+}  // namespace morphbake
