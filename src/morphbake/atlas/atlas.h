@@ -36,9 +36,8 @@ struct AtlasOptions {
 /// Cuts the surface into charts and lays them on a picture, all at one number of texels a length.
 ///
 /// Triangles are merged to ever larger disks, flat and round ones first, across hard edges last
-/// (Garland et al. 2001). Each is flattened as rigidly as possible (Liu et al. 2008, by CGAL); one
-/// that folds, overlaps itself or is stretched comes apart into the two disks it was merged of.
-/// Charts are packed by their outlines, large ones first (Lévy et al. 2002, section 4).
+/// (Garland et al. 2001). Each is flattened by flatten_chart; one that cannot be comes apart into
+/// the two disks it was merged of. Charts are packed by their outlines (Lévy et al. 2002).
 /// @param mesh        an oriented manifold
 /// @param hard_edges  vertices a < b: seams are hidden there
 /// @throws BakeError "connectivity.texture-too-small" when not even points of charts find room;

@@ -15,12 +15,13 @@ struct FlatChart {
   PicturePlaces places;        ///< y upwards: counter-clockwise as seen from outside
 };
 
-/// Lays a disk flat as rigidly as possible, its whole area that of the surface.
+/// Lays a disk flat with angles kept as well as possible, its whole area that of the surface.
 ///
 /// @param triangles  a disk of the mesh; a single one is only laid down
-/// @return nothing when a triangle would be turned over, triangles overlap, or more than 2 % of the
-///         area would have less than half or more than twice the length the surface has in any
-///         direction
+/// @return nothing when a triangle is turned over, triangles overlap, lengths of more than 2 % of
+///         the area are halved or doubled, or those of any triangle become a third or three times
+///         as long
+/// @see Lévy, Petitjean, Ray, Maillot 2002: least squares conformal maps
 std::optional<FlatChart> flatten_chart(const Mesh& mesh, const std::vector<int>& triangles);
 
 }  // namespace morphbake

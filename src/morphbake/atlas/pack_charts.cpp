@@ -62,22 +62,36 @@ void stand_upright(FlatChart& chart) {
   chart.places.rowwise() -= corner;
 }
 
-/// A chart in its box, and the edges of its border.
+/// The border of a chart in its box, whose corner is the origin.
 struct Piece {
-  const PicturePlaces* places = nullptr;
-  std::vector<std::array<int, 2>> border;  ///< rows of places
+  std::vector<std::array<Eigen::RowVector2d, 2>> border;
+  Eigen::RowVector2d extent;
 };
 
 Piece piece_of(const FlatChart& chart) {
-  Piece piece{&chart.places, {}};
   std::set<std::array<int, 2>> sides;
   for (std::size_t c = 0; c < chart.of_corner.size(); ++c) {
     const std::size_t next = c % 3 == 2 ? c - 2 : c + 1;
     const int a = chart.of_corner[c], b = chart.of_corner[next];
     if (sides.erase({b, a}) == 0) sides.insert({a, b});
   }
-  piece.border.assign(sides.begin(), sides.end());
+  Piece piece{{}, chart.places.colwise().maxCoeff()};
+  for (const auto& [a, b] : sides) piece.border.push_back({chart.places.row(a), chart.places.row(b)});
   return piece;
+}
+
+/// A place of a box turned a quarter to the left.
+Eigen::RowVector2d quarter_turned(const Eigen::RowVector2d& place,
+                                  const Eigen::RowVector2d& extent) {
+  return {extent.y() - place.y(), place.x()};
+}
+
+Piece quarter_turned(const Piece& piece) {
+  Piece turned{piece.border, {piece.extent.y(), piece.extent.x()}};
+  for (auto& side : turned.border) {
+    for (Eigen::RowVector2d& end : side) end = quarter_turned(end, piece.extent);
+  }
+  return turned;
 }
 
 /// What a chart takes of each column of texels, with its padding. Rows count from its own corner.
@@ -117,28 +131,32 @@ void take_edge(Outline& outline, Eigen::RowVector2d a, Eigen::RowVector2d b, int
 
 Outline outline_of(const Piece& piece, double scale, int padding) {
   Outline outline;
-  const double widest = piece.places->col(0).maxCoeff() * scale;
-  const auto width = static_cast<std::size_t>(std::floor(widest)) + 1;
+  const auto width = static_cast<std::size_t>(std::floor(piece.extent.x() * scale)) + 1;
   outline.low.assign(width + 2 * static_cast<std::size_t>(padding), std::numeric_limits<int>::max());
   outline.high.assign(outline.low.size(), 0);
   for (const auto& [a, b] : piece.border) {
-    take_edge(outline, piece.places->row(a) * scale, piece.places->row(b) * scale, padding);
+    take_edge(outline, a * scale, b * scale, padding);
   }
   return outline;
 }
 
-/// Where a chart's outline goes.
+/// Where a piece goes.
 struct Spot {
+  std::int64_t cost = std::numeric_limits<std::int64_t>::max();
   int column = 0;
   int row = 0;
+  int turns = 0;  ///< quarters to the left
 };
 
-/// The spot on the skyline that leaves the least below the chart and ends lowest.
-std::optional<Spot> best_spot(const Outline& outline, const std::vector<int>& skyline) {
+/// The spot on the skyline that leaves the least below the outline and ends lowest; of the highest
+/// cost when there is no room.
+Spot best_spot(const Outline& outline, const std::vector<int>& skyline) {
   const int size = static_cast<int>(skyline.size());
   const int step = std::max(1, size / kPlaces);
-  std::optional<Spot> best;
-  std::int64_t least = std::numeric_limits<std::int64_t>::max();
+  // A row higher costs as much as a row of the mean side left empty.
+  const auto side = static_cast<std::int64_t>(
+      std::sqrt(static_cast<double>(outline.width()) * outline.height));
+  Spot best;
   for (int column = 0; column + outline.width() <= size; column += step) {
     const int* top = skyline.data() + column;
     int row = 0;
@@ -149,30 +167,61 @@ std::optional<Spot> best_spot(const Outline& outline, const std::vector<int>& sk
       below += low - top[i];
     }
     if (row + outline.height > size) continue;
-    below += std::int64_t{row} * outline.width();
-    // A row higher costs as much as leaving a row empty under the chart.
-    const std::int64_t cost = below + std::int64_t{row + outline.height} * outline.width();
-    if (cost >= least) continue;
-    least = cost;
-    best = Spot{column, row};
+    const std::int64_t cost =
+        below + std::int64_t{row} * outline.width() + (row + outline.height) * side;
+    if (cost < best.cost) best = {cost, column, row, 0};
   }
   return best;
 }
 
+/// A piece in its four directions.
+using Turns = std::array<Piece, 4>;
+
+Turns turns_of(const FlatChart& chart) {
+  Turns turns{piece_of(chart), {}, {}, {}};
+  for (std::size_t i = 1; i < turns.size(); ++i) turns[i] = quarter_turned(turns[i - 1]);
+  return turns;
+}
+
+/// Puts a piece where it costs least; false without room.
+bool put(const Turns& turns, double scale, int padding, std::vector<int>& skyline, Spot& spot) {
+  spot = {};
+  Outline taken;
+  for (std::size_t i = 0; i < turns.size(); ++i) {
+    Outline outline = outline_of(turns[i], scale, padding);
+    Spot found = best_spot(outline, skyline);
+    if (found.cost >= spot.cost) continue;
+    found.turns = static_cast<int>(i);
+    spot = found;
+    taken = std::move(outline);
+  }
+  if (taken.width() == 0) return false;
+  std::transform(taken.high.begin(), taken.high.end(), skyline.begin() + spot.column,
+                 [&](int high) { return spot.row + high; });
+  return true;
+}
+
 /// Spots of all pieces in turn, or nothing when one finds no room.
-std::optional<std::vector<Spot>> spots_of(const std::vector<Piece>& pieces, double scale, int size,
+std::optional<std::vector<Spot>> spots_of(const std::vector<Turns>& pieces, double scale, int size,
                                           int padding) {
   std::vector<int> skyline(static_cast<std::size_t>(size), 0);
-  std::vector<Spot> spots;
-  for (const Piece& piece : pieces) {
-    const Outline outline = outline_of(piece, scale, padding);
-    const auto spot = best_spot(outline, skyline);
-    if (!spot) return {};
-    std::transform(outline.high.begin(), outline.high.end(), skyline.begin() + spot->column,
-                   [&](int high) { return spot->row + high; });
-    spots.push_back(*spot);
+  std::vector<Spot> spots(pieces.size());
+  for (std::size_t i = 0; i < pieces.size(); ++i) {
+    if (!put(pieces[i], scale, padding, skyline, spots[i])) return {};
   }
   return spots;
+}
+
+/// Turns the chart as its spot says and moves it there.
+void move_to(const Spot& spot, double scale, int size, int padding, FlatChart& chart) {
+  Eigen::RowVector2d extent = chart.places.colwise().maxCoeff();
+  for (int i = 0; i < spot.turns; ++i) {
+    for (auto place : chart.places.rowwise()) place = quarter_turned(place, extent);
+    std::swap(extent.x(), extent.y());
+  }
+  chart.places *= scale;
+  chart.places.col(0).array() += spot.column + padding;
+  chart.places.col(1).array() = size - (spot.row + padding + chart.places.col(1).array());
 }
 
 double area_of(const FlatChart& chart) {
@@ -199,8 +248,8 @@ double pack_charts(std::vector<FlatChart>& charts, int size, int padding,
   std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
     return charts[a].places.col(1).maxCoeff() > charts[b].places.col(1).maxCoeff();
   });
-  std::vector<Piece> pieces;
-  for (const std::size_t i : order) pieces.push_back(piece_of(charts[i]));
+  std::vector<Turns> pieces;
+  for (const std::size_t i : order) pieces.push_back(turns_of(charts[i]));
   double most = area > 0 ? size * std::sqrt(kFirstShare / area) : 0, least = 0;
   auto spots = spots_of(pieces, least, size, padding);
   if (!spots) return 0;
@@ -212,10 +261,7 @@ double pack_charts(std::vector<FlatChart>& charts, int size, int padding,
     if (found) spots = std::move(found);
   }
   for (std::size_t k = 0; k < order.size(); ++k) {
-    PicturePlaces& places = charts[order[k]].places;
-    places *= least;
-    places.col(0).array() += (*spots)[k].column + padding;
-    places.col(1).array() = size - ((*spots)[k].row + padding + places.col(1).array());
+    move_to((*spots)[k], least, size, padding, charts[order[k]]);
   }
   return least;
 }
