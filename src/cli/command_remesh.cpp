@@ -28,8 +28,9 @@ std::vector<std::string> summary_lines(const RemeshReport& report) {
   lines.push_back(fmt::format("{}: {} vertices, {} triangles in {:.2f} s", report.recipe,
                               connectivity.vertices, connectivity.triangles, seconds));
   if (const auto& texture = connectivity.texture) {
-    lines.push_back(fmt::format("  texture: {} x {} texels, {} charts cover {:.0f} %", texture->size,
-                                texture->size, texture->charts, 100 * texture->covered));
+    lines.push_back(fmt::format("  texture: {} x {} texels, {} charts cover {:.0f} %",
+                                texture->size, texture->size, texture->charts,
+                                100 * texture->covered));
   }
   for (const SourceQuality& source : connectivity.quality->sources) {
     lines.push_back(

@@ -53,8 +53,9 @@ std::vector<FlatChart> flat_charts(const Mesh& mesh, const ChartForest& forest,
 [[noreturn]] void fail_too_small(int size, std::size_t charts, int padding) {
   Problem problem;
   problem.code = "connectivity.texture-too-small";
-  problem.message = fmt::format("{} charts with {} texels of padding find no room on {} x {} texels",
-                                charts, padding, size, size);
+  problem.message =
+      fmt::format("{} charts with {} texels of padding find no room on {} x {} texels", charts,
+                  padding, size, size);
   problem.hint = "give the texture a larger size or a smaller padding";
   throw BakeError(std::move(problem));
 }

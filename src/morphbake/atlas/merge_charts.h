@@ -20,7 +20,8 @@ struct ChartForest {
 /// @param mesh        an oriented manifold
 /// @param hard_edges  vertices a < b
 /// @throws Cancelled
-/// @see  Garland, Willmott, Heckbert 2001: hierarchical face clustering; the bend is the area's mean
+/// @see  Garland, Willmott, Heckbert 2001: hierarchical face clustering; the bend is the area's
+/// mean
 ///       of |n - mean n|^2, L2,1 of Cohen-Steiner et al. 2004
 ChartForest merge_charts(const Mesh& mesh, const std::vector<Eigen::Vector2i>& hard_edges,
                          const Observer& observer = {});

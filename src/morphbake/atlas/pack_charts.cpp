@@ -18,9 +18,9 @@ namespace {
 
 using Kernel = CGAL::Simple_cartesian<double>;
 
-constexpr int kScaleSteps = 14;         // of a bisection
-constexpr double kFirstShare = 0.95;    // of the square: no packing is denser
-constexpr int kPlaces = 512;            // places tried along the skyline, at least
+constexpr int kScaleSteps = 14;       // of a bisection
+constexpr double kFirstShare = 0.95;  // of the square: no packing is denser
+constexpr int kPlaces = 512;          // places tried along the skyline, at least
 
 std::vector<Eigen::Vector2d> hull_of(const PicturePlaces& places) {
   std::vector<Kernel::Point_2> points, hull;
@@ -76,7 +76,8 @@ Piece piece_of(const FlatChart& chart) {
     if (sides.erase({b, a}) == 0) sides.insert({a, b});
   }
   Piece piece{{}, chart.places.colwise().maxCoeff()};
-  for (const auto& [a, b] : sides) piece.border.push_back({chart.places.row(a), chart.places.row(b)});
+  for (const auto& [a, b] : sides)
+    piece.border.push_back({chart.places.row(a), chart.places.row(b)});
   return piece;
 }
 
@@ -132,7 +133,8 @@ void take_edge(Outline& outline, Eigen::RowVector2d a, Eigen::RowVector2d b, int
 Outline outline_of(const Piece& piece, double scale, int padding) {
   Outline outline;
   const auto width = static_cast<std::size_t>(std::floor(piece.extent.x() * scale)) + 1;
-  outline.low.assign(width + 2 * static_cast<std::size_t>(padding), std::numeric_limits<int>::max());
+  outline.low.assign(width + 2 * static_cast<std::size_t>(padding),
+                     std::numeric_limits<int>::max());
   outline.high.assign(outline.low.size(), 0);
   for (const auto& [a, b] : piece.border) {
     take_edge(outline, a * scale, b * scale, padding);
@@ -154,8 +156,8 @@ Spot best_spot(const Outline& outline, const std::vector<int>& skyline) {
   const int size = static_cast<int>(skyline.size());
   const int step = std::max(1, size / kPlaces);
   // A row higher costs as much as a row of the mean side left empty.
-  const auto side = static_cast<std::int64_t>(
-      std::sqrt(static_cast<double>(outline.width()) * outline.height));
+  const auto side =
+      static_cast<std::int64_t>(std::sqrt(static_cast<double>(outline.width()) * outline.height));
   Spot best;
   for (int column = 0; column + outline.width() <= size; column += step) {
     const int* top = skyline.data() + column;

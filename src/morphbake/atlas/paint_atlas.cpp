@@ -113,9 +113,9 @@ void cover(const Atlas& atlas, const FlatTriangle& flat, int triangle, Band& ban
       const Eigen::RowVector2d centre = centre_of(column, row);
       const double distance =
           (nearest_in(flat, centre).transpose() * flat.corners - centre).squaredNorm();
-      const auto i = static_cast<std::size_t>(row - band.first_row) *
-                         static_cast<std::size_t>(atlas.size) +
-                     static_cast<std::size_t>(column);
+      const auto i =
+          static_cast<std::size_t>(row - band.first_row) * static_cast<std::size_t>(atlas.size) +
+          static_cast<std::size_t>(column);
       if (distance > most || distance >= band.distance[i]) continue;
       band.distance[i] = distance;
       band.triangle[i] = triangle;
@@ -133,8 +133,8 @@ void paint_row(const Atlas& atlas, const std::vector<FlatTriangle>& flat, const 
         static_cast<std::size_t>(row - band.first_row) * size + static_cast<std::size_t>(column);
     if (band.triangle[i] < 0) continue;
     const FlatTriangle& triangle = flat[static_cast<std::size_t>(band.triangle[i])];
-    texels.push_back({{band.triangle[i], nearest_in(triangle, centre_of(column, row))},
-                      triangle.width});
+    texels.push_back(
+        {{band.triangle[i], nearest_in(triangle, centre_of(column, row))}, triangle.width});
     pixels.push_back(static_cast<std::size_t>(row) * size + static_cast<std::size_t>(column));
   }
   if (texels.empty()) return;

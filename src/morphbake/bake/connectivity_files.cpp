@@ -24,9 +24,9 @@ using Edges = std::set<std::pair<int, int>>;
 
 /// The vertices of the files.
 struct FileVertices {
-  std::vector<int> of_corner;  ///< 3 #F: corner 3 f + k -> vertex of the file
-  std::vector<int> vertex;     ///< vertex of the file -> vertex of the triangulation
-  std::vector<int> shading;    ///< 3 #F: corners of one number are shaded as one
+  std::vector<int> of_corner;   ///< 3 #F: corner 3 f + k -> vertex of the file
+  std::vector<int> vertex;      ///< vertex of the file -> vertex of the triangulation
+  std::vector<int> shading;     ///< 3 #F: corners of one number are shaded as one
   Float2s texture_coordinates;  ///< of each vertex, or no rows without a texture
 };
 

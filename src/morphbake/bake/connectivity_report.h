@@ -30,8 +30,8 @@ struct ConnectivityReport {
   ConnectivityMode mode = ConnectivityMode::Shared;
   int vertices = 0;
   int triangles = 0;
-  std::vector<SourceRepairs> repairs;  ///< one a source; those that share triangles share it
-  std::vector<StageReport> steps;      ///< none when the sources shared one
+  std::vector<SourceRepairs> repairs;    ///< one a source; those that share triangles share it
+  std::vector<StageReport> steps;        ///< none when the sources shared one
   std::optional<TextureReport> texture;  ///< when there is one
   std::optional<TriangulationQuality> quality;  ///< of new triangles, when it was measured
 };

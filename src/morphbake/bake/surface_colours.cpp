@@ -23,8 +23,7 @@ float texture_level(const Image& image, const Eigen::Matrix<float, 2, 3>& uv, do
                     double width) {
   const Eigen::Vector2d a = (uv.col(1) - uv.col(0)).cast<double>();
   const Eigen::Vector2d b = (uv.col(2) - uv.col(0)).cast<double>();
-  const double texels =
-      std::abs(a.x() * b.y() - a.y() * b.x()) / 2 * image.width * image.height;
+  const double texels = std::abs(a.x() * b.y() - a.y() * b.x()) / 2 * image.width * image.height;
   const double side = area > 0 ? width * std::sqrt(texels / area) : 0;
   return side > 1 ? static_cast<float>(std::log2(side)) : 0.0F;
 }
@@ -41,8 +40,7 @@ double area_of(const Mesh& mesh, int triangle) {
 bool SurfaceColours::any() const {
   const std::vector<AnimatedPrimitive>& all = mesh.primitives;
   return std::any_of(all.begin(), all.end(), [&](const AnimatedPrimitive& each) {
-    return each.colours.rows() > 0 ||
-           (each.image >= 0 && each.texture_coordinates.rows() > 0) ||
+    return each.colours.rows() > 0 || (each.image >= 0 && each.texture_coordinates.rows() > 0) ||
            each.base_colour != all.front().base_colour;
   });
 }
@@ -52,8 +50,7 @@ SurfaceColours surface_colours(const SourceMesh& source, const SourceSurface& su
   SurfaceColours colours;
   colours.mesh = read_animated_mesh(source.file, {.node = source.geometry.node});
   colours.appearance = make_appearance(colours.mesh, observer);
-  colours.material =
-      first_material(source.file, source.geometry.mesh).value_or(PlainMaterial{});
+  colours.material = first_material(source.file, source.geometry.mesh).value_or(PlainMaterial{});
   std::vector<int> firsts;  // render vertex that each primitive begins with
   int count = 0;
   for (const AnimatedPrimitive& primitive : colours.mesh.primitives) {

@@ -21,12 +21,12 @@ struct PlainMaterial {
 
 /// A mesh of one primitive.
 struct PlainMesh {
-  std::string name;           ///< of node and mesh
-  std::string copyright;      ///< or ""
-  TriangleIndices triangles;  ///< #F by 3
-  Float3s positions;          ///< #V by 3
-  Float3s normals;            ///< #V by 3, unit length
-  Float3s colours;            ///< #V by 3 linear RGB in [0, 1] (COLOR_0), or no rows
+  std::string name;             ///< of node and mesh
+  std::string copyright;        ///< or ""
+  TriangleIndices triangles;    ///< #F by 3
+  Float3s positions;            ///< #V by 3
+  Float3s normals;              ///< #V by 3, unit length
+  Float3s colours;              ///< #V by 3 linear RGB in [0, 1] (COLOR_0), or no rows
   Float2s texture_coordinates;  ///< #V by 2 (TEXCOORD_0), or no rows
   std::optional<PlainMaterial> material;
 };

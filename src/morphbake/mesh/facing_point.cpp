@@ -51,7 +51,9 @@ class FacingTraversal {
   }
 
   bool is_found() const { return is_found_; }
+
   Iterator triangle() const { return found_; }
+
   const Kernel::Point_3& closest() const { return closest_; }
 
  private:

@@ -23,8 +23,8 @@ void complain_about_idle_fields(Reading& reading, const Json& json) {
 
 TextureRequest texture_of(Reading& reading, const Json& json) {
   TextureRequest texture;
-  texture.of = look_up(reading, reading.recipe.sources, "source", json.at("of"),
-                       "/connectivity/texture/of");
+  texture.of =
+      look_up(reading, reading.recipe.sources, "source", json.at("of"), "/connectivity/texture/of");
   if (json.contains("size")) texture.size = whole_number(json["size"]);
   if (json.contains("padding")) texture.padding = whole_number(json["padding"]);
   return texture;

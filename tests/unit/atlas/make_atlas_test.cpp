@@ -32,8 +32,7 @@ std::vector<Eigen::Vector2i> sharp_edges(const Mesh& mesh) {
     };
     const Eigen::RowVector3d normal = (at(1) - at(0)).cross(at(2) - at(0)).normalized();
     for (int k = 0; k < 3; ++k) {
-      const auto [low, high] =
-          std::minmax({mesh.triangles(f, k), mesh.triangles(f, (k + 1) % 3)});
+      const auto [low, high] = std::minmax({mesh.triangles(f, k), mesh.triangles(f, (k + 1) % 3)});
       const auto [entry, is_new] = normals.try_emplace({low, high}, normal);
       if (!is_new && entry->second.dot(normal) < std::cos(0.7)) sharp.emplace_back(low, high);
     }
