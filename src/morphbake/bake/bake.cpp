@@ -79,9 +79,9 @@ BakeReport bake(const Recipe& asked, const BakeOptions& options, const Observer&
   if (recipe.preview) {
     clock.start("preview");
     for (auto& [output, file, node] : staged) {
-      output.previews = stage_previews({file, output.file, stem_of(output.file), node},
-                                       turntable_of(*recipe.preview, options),
-                                       recipe.preview->formats, observer, outputs);
+      output.previews = stage_previews(
+          {file, output.file, stem_of(output.file), node}, turntable_of(*recipe.preview, options),
+          recipe.preview->formats, observer, outputs);
     }
   }
   if (recipe.preview) stage_maps(solved, options, observer, staged.front(), outputs);

@@ -86,14 +86,14 @@ void check_positions(const Recipe& recipe, std::size_t index, const OutputReport
                      const Observer& observer) {
   const Output& output = recipe.outputs[index];
   if (keeps_positions(output, written)) return;
-  Problem problem{
-      Severity::Error, "export.position-error",
-      location_in(recipe, fmt::format("/outputs/{}/max_error", index)),
-      fmt::format("positions are up to {:.3g} of the diagonal off, more than the {:.3g} "
-                  "that are allowed; worst at vertex {} and {:.4g} s",
-                  written.max_error, output.max_error, written.worst_vertex, written.worst_time),
-      "\"targets\": \"frames\" is as exact as float32; a larger bound, or \"unmet\": "
-      "\"warning\", accepts it"};
+  Problem problem{Severity::Error, "export.position-error",
+                  location_in(recipe, fmt::format("/outputs/{}/max_error", index)),
+                  fmt::format("positions are up to {:.3g} of the diagonal off, more than the {:.3g} "
+                              "that are allowed; worst at vertex {} and {:.4g} s",
+                              written.max_error, output.max_error, written.worst_vertex,
+                              written.worst_time),
+                  "\"targets\": \"frames\" is as exact as float32; a larger bound, or \"unmet\": "
+                  "\"warning\", accepts it"};
   tell_unmet(output, std::move(problem), observer);
 }
 
@@ -321,7 +321,8 @@ WrittenOutput write_animated_output(const SolvedRecipe& solved, const OutputInpu
   const auto write = [&](double tolerance) {
     return write_output(solved, output, make_animated_output(solved, inputs, tolerance));
   };
-  double tolerance = output.max_error * bounding_diagonal(solved.timeline.frames.positions(0));
+  double tolerance =
+      output.max_error * bounding_diagonal(solved.timeline.frames.positions(0));
   WrittenOutput written = write(tolerance);
   if (kind == TargetKind::Tracks || kind == TargetKind::Frames) return written;
   for (int i = 0; i < kMostTightenings && !keeps_bounds(output, written.report); ++i) {

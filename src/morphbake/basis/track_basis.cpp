@@ -1,3 +1,5 @@
+#include "morphbake/basis/morph_basis.h"
+
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -5,7 +7,6 @@
 #include <limits>
 #include <set>
 
-#include "morphbake/basis/morph_basis.h"
 #include "morphbake/mesh/measures.h"
 
 namespace morphbake {

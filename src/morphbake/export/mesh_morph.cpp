@@ -216,8 +216,7 @@ MeshMorph make_mesh_morph(const SourceMesh& first, const MorphableMesh& mesh,
       primitive.target_positions.push_back(
           spread(displacement, mesh.vertex_of_render, begin, count));
       if (groups.count > 0) {
-        primitive.target_normals.push_back(
-            spread(normals.targets[k], groups.of_render, begin, count));
+        primitive.target_normals.push_back(spread(normals.targets[k], groups.of_render, begin, count));
       }
       begin += count;
     }

@@ -157,8 +157,9 @@ std::string compress_meshopt(const GltfFile& file) {
   const std::vector<ViewUse> uses = uses_of(draft);
   for (std::size_t v = 0; v < draft.views.size(); ++v) {
     Json& view = draft.views[v];
-    const std::string_view bytes = std::string_view(binary).substr(
-        view.value("byteOffset", std::size_t{0}), view.at("byteLength"));
+    const std::string_view bytes =
+        std::string_view(binary)
+            .substr(view.value("byteOffset", std::size_t{0}), view.at("byteLength"));
     const std::optional<Packing> packing = packing_of(uses[v], view, references.views[v]);
     const std::string small = packing ? packed(*packing, bytes) : std::string();
     if (small.empty() || small.size() >= bytes.size()) {

@@ -87,11 +87,11 @@ Shorts integers_of(const Float3s& fractions, int bits) {
   Shorts integers = Shorts::Zero(fractions.rows(), 4);
   for (Eigen::Index i = 0; i < fractions.rows(); ++i) {
     for (int axis = 0; axis < 3; ++axis) {
-      const float steps =
-          std::round(fractions(i, axis) * static_cast<float>(kLargest) / static_cast<float>(step));
+      const float steps = std::round(fractions(i, axis) * static_cast<float>(kLargest) /
+                                     static_cast<float>(step));
       const int most = kLargest / step;
-      integers(i, axis) =
-          static_cast<std::int16_t>(step * std::clamp(static_cast<int>(steps), -most, most));
+      integers(i, axis) = static_cast<std::int16_t>(
+          step * std::clamp(static_cast<int>(steps), -most, most));
     }
   }
   return integers;
@@ -122,8 +122,8 @@ int append_sparse(GlbDraft& draft, const Shorts& rows, const std::vector<std::ui
   using Packed = Eigen::Matrix<std::int16_t, Eigen::Dynamic, 3, Eigen::RowMajor>;
   const Packed values = rows.leftCols(3)(moving, Eigen::all);
   Json accessor = short_accessor(rows);
-  accessor["sparse"] = append_sparse_fields(
-      draft, moving, values.data(), static_cast<std::size_t>(values.size()) * sizeof(std::int16_t));
+  accessor["sparse"] = append_sparse_fields(draft, moving, values.data(),
+                                            static_cast<std::size_t>(values.size()) * sizeof(std::int16_t));
   return append_accessor(draft, std::move(accessor));
 }
 
@@ -175,8 +175,7 @@ void redirect_weights(Json& json, std::size_t from, std::size_t to) {
   for (Json& animation : json["animations"]) {
     for (Json& channel : animation.at("channels")) {
       Json& target = channel.at("target");
-      if (target.value("path", "") == "weights" &&
-          target.value("node", -1) == static_cast<int>(from)) {
+      if (target.value("path", "") == "weights" && target.value("node", -1) == static_cast<int>(from)) {
         target["node"] = to;
       }
       if (!target.contains("extensions")) continue;
