@@ -24,8 +24,7 @@ std::vector<Positions> sweep(const Mesh& mesh, int frames) {
     const Eigen::ArrayXd share =
         ((at - mesh.positions.col(0).array()) / width + 0.5).cwiseMax(0).cwiseMin(1);
     const Eigen::ArrayXd soft = share * share * (3 - 2 * share);
-    all.push_back(mesh.positions +
-                  Positions(soft.matrix().asDiagonal() * (bent - mesh.positions)));
+    all.push_back(mesh.positions + Positions(soft.matrix().asDiagonal() * (bent - mesh.positions)));
   }
   return all;
 }
@@ -58,8 +57,8 @@ void bench_targets(int vertices, int frames, Figures& figures) {
   const Pair key = time_pair(3, read_all, [&] {
     keyframes = keyframe_basis(source, tolerance, clips, nobody).targets.size();
   });
-  figures.push_back({group, "reading all frames once", principal.first, "s",
-                     sum != 0 ? "one thread" : ""});
+  figures.push_back(
+      {group, "reading all frames once", principal.first, "s", sum != 0 ? "one thread" : ""});
   figures.push_back({group, "basis", principal.second, "s", fmt::format("{} targets", shapes)});
   figures.push_back({group, "basis / reading", principal.ratio, "x", "pairs"});
   figures.push_back({group, "keyframes", key.second, "s", fmt::format("{} targets", keyframes)});

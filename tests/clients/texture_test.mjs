@@ -161,6 +161,7 @@ async function checkFile(file, picture) {
 }
 
 const sameRows = (a, b) => JSON.stringify(a) === JSON.stringify(b);
+const sorted = (lines) => lines.map(String).sort();
 const texcoords = (plain) => rows(plain, plain.json.meshes[0].primitives[0].attributes.TEXCOORD_0);
 
 await withFolder(async (folder) => {
@@ -175,6 +176,6 @@ await withFolder(async (folder) => {
   compareColours(trianglesOf(textured), trianglesOf(source));
   const { outputs: [{ file }] } = bake(morphbake, recipeFile, folder);
   const baked = await checkFile(file, textured.images[0]);
-  checks.check(sameRows(texcoords(textured), texcoords(baked)), 'the bake has different coordinates');
+  checks.check(sameRows(sorted(texcoords(textured)), sorted(texcoords(baked))), 'the bake has different coordinates');
 });
 checks.finish('the texture shows the source');

@@ -35,7 +35,7 @@ std::filesystem::path with_ending(const std::filesystem::path& file, const char*
 /// Stages the pictures that explain the recipe, beside the first output.
 void stage_maps(const SolvedRecipe& solved, const BakeOptions& options, const Observer& observer,
                 StagedOutput& first, PendingOutputs& outputs) {
-  const auto& [recipe, source, mesh, regions, timeline, groups] = solved;
+  const auto& [recipe, source, mesh, regions, timeline, groups, colours] = solved;
   for (const MapKind kind : recipe.preview->maps) {
     const bool of_regions = kind == MapKind::Regions;
     const std::filesystem::path file =
@@ -70,8 +70,9 @@ BakeReport bake(const Recipe& asked, const BakeOptions& options, const Observer&
       solve_timeline(recipe, mesh, regions, options.solve, observer);
   clock.start("export");
   const SmoothingGroups groups = find_smoothing_groups(sources.front(), mesh);
+  const ShapeColours colours = shape_colours(recipe, sources, mesh);
   PendingOutputs outputs;
-  const SolvedRecipe solved{recipe, sources.front(), mesh, regions, *timeline, groups};
+  const SolvedRecipe solved{recipe, sources.front(), mesh, regions, *timeline, groups, colours};
   std::vector<StagedOutput> staged;
   for (std::size_t i = 0; i < recipe.outputs.size(); ++i) {
     staged.push_back(stage_output(solved, i, options, observer, outputs));
@@ -79,9 +80,9 @@ BakeReport bake(const Recipe& asked, const BakeOptions& options, const Observer&
   if (recipe.preview) {
     clock.start("preview");
     for (auto& [output, file, node] : staged) {
-      output.previews = stage_previews(
-          {file, output.file, stem_of(output.file), node}, turntable_of(*recipe.preview, options),
-          recipe.preview->formats, observer, outputs);
+      output.previews = stage_previews({file, output.file, stem_of(output.file), node},
+                                       turntable_of(*recipe.preview, options),
+                                       recipe.preview->formats, observer, outputs);
     }
   }
   if (recipe.preview) stage_maps(solved, options, observer, staged.front(), outputs);

@@ -145,6 +145,26 @@ Normals file_vertex_normals(const Positions& geometry, const Triangles& triangle
   return normals;
 }
 
+Eigen::Vector3d factor_of(const CarriedColours& look) {
+  return look.material ? look.material->base_colour : Eigen::Vector3d(1, 1, 1);
+}
+
+/// Lets COLOR_0 tell sources apart that materials do, so that a morph may lead from one's colours
+/// to the other's: a material's factor does not change in time.
+void bring_under_one_factor(std::vector<CarriedColours>& looks, Eigen::Index vertices) {
+  const auto differs = [&](const CarriedColours& look) {
+    return factor_of(look) != factor_of(looks.front()) ||
+           (look.colours.rows() > 0) != (looks.front().colours.rows() > 0);
+  };
+  if (std::none_of(looks.begin(), looks.end(), differs)) return;
+  for (CarriedColours& look : looks) {
+    if (look.colours.rows() == 0) look.colours = Float3s::Ones(vertices, 3);
+    look.colours *= factor_of(look).cast<float>().asDiagonal();
+    look.colours = look.colours.cwiseMax(0.0F).cwiseMin(1.0F).eval();
+    if (look.material) look.material->base_colour.setOnes();
+  }
+}
+
 std::string glb_of(const SourceMesh& source, CarriedColours look,
                    const SharedTriangulation& triangulation, std::size_t s,
                    const FileVertices& vertices) {
@@ -223,12 +243,18 @@ ConnectivityFiles write_connectivity_files(const std::vector<SourceMesh>& source
   append_number(files.maps, static_cast<std::uint32_t>(vertices.vertex.size()));
   append_number(files.maps, static_cast<std::uint32_t>(sources.size()));
   align(files.maps);
+  std::vector<CarriedColours> looks;
   for (std::size_t s = 0; s < sources.size(); ++s) {
     stop_if_cancelled(observer);
-    CarriedColours look =
-        texture ? CarriedColours{texture->material, {}}
-                : carry_colours(sources[s], surfaces[s], triangulation.on_source[s], observer);
-    files.glbs.push_back(glb_of(sources[s], std::move(look), triangulation, s, vertices));
+    if (texture) {
+      looks.push_back({texture->material, {}});
+      continue;
+    }
+    looks.push_back(carry_colours(sources[s], surfaces[s], triangulation.on_source[s], observer));
+  }
+  bring_under_one_factor(looks, triangulation.connectivity.vertex_count);
+  for (std::size_t s = 0; s < sources.size(); ++s) {
+    files.glbs.push_back(glb_of(sources[s], std::move(looks[s]), triangulation, s, vertices));
     stop_if_cancelled(observer);
     append_map(sources[s], surfaces[s], triangulation.on_source[s], vertices, files.maps);
   }

@@ -8,11 +8,8 @@
 #include <memory>
 #include <utility>
 
-#include "morphbake/gltf/compress_meshopt.h"
-#include "morphbake/gltf/quantise_mesh.h"
-#include "morphbake/gltf/write_morph.h"
+#include "morphbake/bake/encode_output.h"
 #include "morphbake/mesh/measures.h"
-#include "morphbake/version.h"
 
 namespace morphbake {
 namespace {
@@ -29,6 +26,22 @@ Positions still_positions(const SolvedRecipe& solved, const Still& still,
   const State& state = recipe.states[static_cast<std::size_t>(std::get<int>(still.at))];
   return solve_state(recipe, state, solved.mesh, solved.regions, solved.timeline.representation,
                      options);
+}
+
+/// #V by 3, or no rows where colours do not change.
+Positions colours_at(const SolvedRecipe& solved, double time) {
+  if (solved.colours.empty()) return {};
+  return mixed_colours(solved.colours, transition_at(solved.recipe, solved.regions,
+                                                     solved.mesh.connectivity.vertex_count, time));
+}
+
+Positions still_colours(const SolvedRecipe& solved, const Still& still) {
+  if (const double* time = std::get_if<double>(&still.at)) return colours_at(solved, *time);
+  if (solved.colours.empty()) return {};
+  const Recipe& recipe = solved.recipe;
+  const State& state = recipe.states[static_cast<std::size_t>(std::get<int>(still.at))];
+  return mixed_colours(solved.colours, state_transition(state, solved.regions,
+                                                        solved.mesh.connectivity.vertex_count));
 }
 
 void warn_of_no_targets(const Recipe& recipe, std::size_t index, const Observer& observer) {
@@ -86,14 +99,14 @@ void check_positions(const Recipe& recipe, std::size_t index, const OutputReport
                      const Observer& observer) {
   const Output& output = recipe.outputs[index];
   if (keeps_positions(output, written)) return;
-  Problem problem{Severity::Error, "export.position-error",
-                  location_in(recipe, fmt::format("/outputs/{}/max_error", index)),
-                  fmt::format("positions are up to {:.3g} of the diagonal off, more than the {:.3g} "
-                              "that are allowed; worst at vertex {} and {:.4g} s",
-                              written.max_error, output.max_error, written.worst_vertex,
-                              written.worst_time),
-                  "\"targets\": \"frames\" is as exact as float32; a larger bound, or \"unmet\": "
-                  "\"warning\", accepts it"};
+  Problem problem{
+      Severity::Error, "export.position-error",
+      location_in(recipe, fmt::format("/outputs/{}/max_error", index)),
+      fmt::format("positions are up to {:.3g} of the diagonal off, more than the {:.3g} "
+                  "that are allowed; worst at vertex {} and {:.4g} s",
+                  written.max_error, output.max_error, written.worst_vertex, written.worst_time),
+      "\"targets\": \"frames\" is as exact as float32; a larger bound, or \"unmet\": "
+      "\"warning\", accepts it"};
   tell_unmet(output, std::move(problem), observer);
 }
 
@@ -138,10 +151,11 @@ struct MorphWithMotions {
 MorphWithMotions make_still_output(const SolvedRecipe& solved, const Still& still,
                                    const SolveOptions& options) {
   const Positions positions = still_positions(solved, still, options);
-  return {make_still(solved.first, solved.mesh, solved.groups, positions),
-          nullptr,
-          {{{0.0}, [positions](double) { return positions; }}},
-          "still"};
+  return {
+      make_still(solved.first, solved.mesh, solved.groups, positions, still_colours(solved, still)),
+      nullptr,
+      {{{0.0}, [positions](double) { return positions; }}},
+      "still"};
 }
 
 /// The kind that is asked for, where a timeline without tracks has none.
@@ -196,6 +210,10 @@ MorphWithMotions make_animated_output(const SolvedRecipe& solved, const OutputIn
   made.timeline = std::make_unique<ReferenceMotion>(watched(
       by_track ? continuous_motion(of.shapes, *of.separable, timeline) : stepped_motion(of.frames),
       inputs.observer));
+  if (!solved.colours.empty()) {
+    made.timeline->colours_at = [&solved](double time) { return colours_at(solved, time); };
+    made.timeline->first_colours = colours_at(solved, 0);
+  }
   for (const Clip& clip : inputs.output.clips) {
     made.motions.push_back(motion_of(*made.timeline, clip));
   }
@@ -236,43 +254,28 @@ struct WrittenOutput {
   std::size_t all_targets = 0;  ///< with those that the mesh had
 };
 
-/// The bytes of a morph in the encoding that is asked for.
-EncodedMorph encoded_morph(const SolvedRecipe& solved, const Output& output, MeshMorph morph) {
-  EncodedMorph encoded{
-      write_morph_glb(solved.first.file, morph, fmt::format("morphbake {}", version())),
-      morph.node};
-  morph = {};
-  if (output.encoding == Encoding::Quantised) {
-    const GltfFile file = open_gltf_bytes(std::move(encoded.glb), output.file);
-    encoded = quantise_mesh(file, encoded.node);
-  }
-  if (output.compression == Compression::Meshopt) {
-    encoded.glb = compress_meshopt(open_gltf_bytes(std::move(encoded.glb), output.file));
-  }
-  return encoded;
-}
-
 WrittenOutput write_output(const SolvedRecipe& solved, const Output& output,
                            MorphWithMotions made) {
   auto& [morph, timeline, motions, kind] = made;
   const auto added = static_cast<std::ptrdiff_t>(morph.target_names.size());
   const std::size_t clips = added > 0 ? morph.clips.size() : 0;
+  const double diagonal = bounding_diagonal(motions.front().positions_at(0));
   WrittenOutput result;
   OutputReport& report = result.report;
   for (const MorphClip& clip : morph.clips) {
     report.weight_keys += static_cast<int>(clip.key_times.size());
   }
-  auto [bytes, node] = encoded_morph(solved, output, std::move(morph));
-  result.bytes = std::move(bytes);  // what they say is measured
-  result.node = node;
-  WrittenMesh written = read_written_mesh(result.bytes, output.file, node, clips);
+  EncodedOutput encoded = encode_output(solved.first, output, diagonal, std::move(morph));
+  result.bytes = std::move(encoded.glb);  // what they say is measured
+  result.node = encoded.node;
+  WrittenMesh written = read_written_mesh(result.bytes, output.file, encoded.node, clips);
+  restore_order(encoded.old_vertex, written.mesh);
   const std::vector<std::string>& names = written.mesh.target_names;
   result.all_targets = names.size();
   // Without targets nothing moves, and one weight at rest stands for all clips.
   written.clips.resize(motions.size(), written.clips.front());
   const MorphError error = measure_clips(solved, written, motions);
 
-  const double diagonal = bounding_diagonal(motions.front().positions_at(0));
   report.file = output.file;
   report.kind = kind;
   report.bytes = result.bytes.size();
@@ -321,8 +324,7 @@ WrittenOutput write_animated_output(const SolvedRecipe& solved, const OutputInpu
   const auto write = [&](double tolerance) {
     return write_output(solved, output, make_animated_output(solved, inputs, tolerance));
   };
-  double tolerance =
-      output.max_error * bounding_diagonal(solved.timeline.frames.positions(0));
+  double tolerance = output.max_error * bounding_diagonal(solved.timeline.frames.positions(0));
   WrittenOutput written = write(tolerance);
   if (kind == TargetKind::Tracks || kind == TargetKind::Frames) return written;
   for (int i = 0; i < kMostTightenings && !keeps_bounds(output, written.report); ++i) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "morphbake/bake/bake.h"
+#include "morphbake/bake/shape_colours.h"
 #include "morphbake/bake/solve_timeline.h"
 #include "morphbake/connectivity/morphable_mesh.h"
 #include "morphbake/export/mesh_morph.h"
@@ -16,6 +17,7 @@ struct SolvedRecipe {
   const RegionFields& regions;
   const SolvedTimeline& timeline;
   const SmoothingGroups& groups;
+  const ShapeColours& colours;
 };
 
 /// An output that waits to be committed.

@@ -101,9 +101,8 @@ MorphBasis keyframe_basis(const FrameSource& frames, double tolerance,
     target_of_key.push_back(static_cast<Eigen::Index>(same));
     if (same == basis.targets.size()) basis.targets.push_back(std::move(target));
   }
-  Eigen::MatrixXd weights =
-      Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(chosen.size()),
-                            static_cast<Eigen::Index>(basis.targets.size()));
+  Eigen::MatrixXd weights = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(chosen.size()),
+                                                  static_cast<Eigen::Index>(basis.targets.size()));
   for (std::size_t k = 0; k < chosen.size(); ++k) {
     if (target_of_key[k] >= 0) weights(static_cast<Eigen::Index>(k), target_of_key[k]) = 1;
   }

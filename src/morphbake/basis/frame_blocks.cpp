@@ -9,8 +9,8 @@ namespace morphbake {
 namespace {
 
 constexpr double kBlockBytes = 8e6;
-constexpr std::size_t kPartsAtOnce = 8;    // in memory, whatever the number of threads
-constexpr std::size_t kStraysAPart = 16;   // more would be neighbours of these
+constexpr std::size_t kPartsAtOnce = 8;   // in memory, whatever the number of threads
+constexpr std::size_t kStraysAPart = 16;  // more would be neighbours of these
 constexpr Eigen::Index kSpreadCount = 1000;
 
 }  // namespace

@@ -98,8 +98,7 @@ std::vector<std::size_t> choose_keyframes(const FrameSource& frames, double tole
     const std::vector<std::size_t> keys =
         keyframes_of(read_vertices(frames, seen), frames.times, tolerance);
     const std::vector<Eigen::Index> left = strays(
-        frames,
-        [&](const FrameBlock& block) { return distances_from(block, frames.times, keys); },
+        frames, [&](const FrameBlock& block) { return distances_from(block, frames.times, keys); },
         tolerance, observer);
     if (left.empty()) return keys;
     seen.insert(seen.end(), left.begin(), left.end());

@@ -71,8 +71,7 @@ Eigen::Index fewest_for_all(const FrameSource& frames, const Eigen::MatrixXd& di
     const Eigen::Index count = fewest(read_vertices(frames, seen), directions, tolerance);
     if (count == directions.cols()) return count;
     const std::vector<Eigen::Index> left = strays(
-        frames,
-        [&](const FrameBlock& block) { return distances_from(block, directions, count); },
+        frames, [&](const FrameBlock& block) { return distances_from(block, directions, count); },
         tolerance, observer);
     if (left.empty()) return count;
     seen.insert(seen.end(), left.begin(), left.end());

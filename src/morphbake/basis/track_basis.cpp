@@ -1,5 +1,3 @@
-#include "morphbake/basis/morph_basis.h"
-
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -7,6 +5,7 @@
 #include <limits>
 #include <set>
 
+#include "morphbake/basis/morph_basis.h"
 #include "morphbake/mesh/measures.h"
 
 namespace morphbake {

@@ -1,11 +1,11 @@
 #include "morphbake/export/mesh_morph.h"
 
-#include <tbb/parallel_for.h>
-
 #include <Eigen/LU>
-#include <Eigen/QR>
 #include <algorithm>
+#include <optional>
 #include <utility>
+
+#include "morphbake/export/fit_targets.h"
 
 namespace morphbake {
 namespace {
@@ -19,97 +19,50 @@ Normals to_mesh_space(const Normals& scene_normals, const Eigen::Matrix3d& linea
   return (scene_normals * linear).rowwise().normalized();
 }
 
-/// Normals of groups in mesh space, as glTF morphs them: rest + sum_k w_k target_k.
-struct NormalBasis {
-  Normals rest;
-  std::vector<Normals> targets;
-};
-
-using NormalRows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-
-/// Sums over all frames of a least-squares fit of normals to the weights.
-struct NormalMoments {
-  Eigen::MatrixXd gram;  ///< #numbers by #numbers: the weights, and 1 where rest is fitted too
-  NormalRows sums;       ///< #numbers by 3 #groups
-};
-
-NormalMoments normal_moments(const MorphableMesh& mesh, const MorphBasis& basis,
-                             const SmoothingGroups& groups,
-                             const std::vector<ReferenceMotion>& motions,
-                             const Eigen::Matrix3d& linear, const Normals& rest) {
-  const auto targets = static_cast<Eigen::Index>(basis.targets.size());
-  const Eigen::Index count = targets + (basis.kind == TargetKind::Basis ? 1 : 0);
-  NormalMoments moments{Eigen::MatrixXd::Zero(count, count),
-                        NormalRows::Zero(count, 3 * Eigen::Index{groups.count})};
-  Eigen::VectorXd numbers = Eigen::VectorXd::Ones(count);
-  for (std::size_t c = 0; c < motions.size(); ++c) {
-    const WeightKeys& keys = basis.clips[c];
-    for (const double time : motions[c].frame_times) {
-      numbers.head(targets) = interpolate_keys(keys.times, keys.weights, time);
-      moments.gram += numbers * numbers.transpose();
-      if (numbers.isZero(0)) continue;
-      const Positions positions = motions[c].positions_at(time);
-      const Normals difference =
-          to_mesh_space(deformed_normals(groups, mesh, positions), linear) - rest;
-      const Eigen::Map<const Eigen::RowVectorXd> row(difference.data(), difference.size());
-      for (Eigen::Index k = 0; k < count; ++k) {
-        if (numbers(k) != 0) moments.sums.row(k) += numbers(k) * row;
-      }
-    }
-  }
-  return moments;
-}
-
-/// rows <- matrix rows. Of frames that fade into one another the matrix is nearly empty.
-void apply(const Eigen::MatrixXd& matrix, NormalRows& rows) {
-  constexpr Eigen::Index kColumns = 1024;  // at once: they stay in caches
-  const Eigen::Index parts = (rows.cols() + kColumns - 1) / kColumns;
-  tbb::parallel_for(Eigen::Index{0}, parts, [&](Eigen::Index part) {
-    const Eigen::Index first = part * kColumns;
-    const Eigen::Index columns = std::min(kColumns, rows.cols() - first);
-    const NormalRows old = rows.middleCols(first, columns);
-    rows.middleCols(first, columns).setZero();
-    for (Eigen::Index k = 0; k < matrix.rows(); ++k) {
-      for (Eigen::Index m = 0; m < matrix.cols(); ++m) {
-        if (matrix(k, m) != 0) rows.row(k).segment(first, columns) += matrix(k, m) * old.row(m);
-      }
-    }
-  });
-}
-
-/// Shaders norm what they morph: each group may have its own scale, so that its rest is a unit
-/// normal, as glTF wants it.
-void scale_to_unit_rest(const Normals& fitted, NormalBasis& normals) {
+/// Shaders norm what they morph: each normal may have its own scale with its targets, so that its
+/// rest is a unit normal, as glTF wants it.
+void scale_to_unit_rest(const Normals& surface, FittedVectors& normals) {
   constexpr double kShortest = 1e-6;
-  for (Eigen::Index g = 0; g < fitted.rows(); ++g) {
-    const double length = fitted.row(g).norm();
-    if (!(length > kShortest)) continue;  // the fit says nothing: rest stays the surface's normal
-    normals.rest.row(g) = fitted.row(g) / length;
-    for (Normals& target : normals.targets) target.row(g) /= length;
+  for (Eigen::Index g = 0; g < surface.rows(); ++g) {
+    const double length = normals.rest.row(g).norm();
+    if (!(length > kShortest)) {  // the fit says nothing
+      normals.rest.row(g) = surface.row(g);
+      continue;
+    }
+    normals.rest.row(g) /= length;
+    for (Positions& target : normals.targets) target.row(g) /= length;
   }
 }
 
-/// Least-squares fit of the deformed normals to the weights over all frames. Where the base is no
-/// frame, rest is fitted as well: no normal of a frame is to be kept.
-NormalBasis fit_normals(const MorphableMesh& mesh, const MorphBasis& basis,
-                        const SmoothingGroups& groups, const std::vector<ReferenceMotion>& motions,
-                        const Eigen::Matrix3d& linear) {
-  NormalBasis normals{to_mesh_space(deformed_normals(groups, mesh, basis.base), linear), {}};
-  if (basis.targets.empty()) return normals;
-  NormalMoments moments = normal_moments(mesh, basis, groups, motions, linear, normals.rest);
-  // Targets that never move, or move together, leave the Gram matrix singular: least norm then.
-  const Eigen::MatrixXd inverse = moments.gram.completeOrthogonalDecomposition().pseudoInverse();
-  apply(inverse, moments.sums);
-  const auto rows_of = [&](Eigen::Index number) {
-    return Eigen::Map<const Normals>(moments.sums.row(number).data(), groups.count, 3);
+FittedVectors fit_normals(const MorphableMesh& mesh, const MorphBasis& basis,
+                          const SmoothingGroups& groups,
+                          const std::vector<ReferenceMotion>& motions,
+                          const Eigen::Matrix3d& linear) {
+  const auto normals_of = [&](const Positions& positions) {
+    return to_mesh_space(deformed_normals(groups, mesh, positions), linear);
   };
-  for (std::size_t k = 0; k < basis.targets.size(); ++k) {
-    normals.targets.emplace_back(rows_of(static_cast<Eigen::Index>(k)));
+  std::vector<VectorMotion> shown;
+  for (const ReferenceMotion& motion : motions) {
+    shown.push_back(
+        {motion.frame_times, [&](double time) { return normals_of(motion.positions_at(time)); }});
   }
-  if (basis.kind == TargetKind::Basis) {
-    scale_to_unit_rest(normals.rest + rows_of(moments.sums.rows() - 1), normals);
-  }
+  const Normals surface = normals_of(basis.base);
+  FittedVectors normals = fit_targets(basis, surface, shown);
+  if (basis.kind == TargetKind::Basis) scale_to_unit_rest(surface, normals);
   return normals;
+}
+
+/// Colours that change with the shares; nothing where they do not.
+///
+/// @param rest  at the base, where that is a frame
+std::optional<FittedVectors> fit_colours(const MorphBasis& basis,
+                                         const std::vector<ReferenceMotion>& motions) {
+  if (!motions.front().colours_at) return {};
+  std::vector<VectorMotion> shown;
+  for (const ReferenceMotion& motion : motions) {
+    shown.push_back({motion.frame_times, motion.colours_at});
+  }
+  return fit_targets(basis, motions.front().first_colours, shown);
 }
 
 /// Rows of `of_vertex` for the render vertices begin, begin + 1, ...; zero for those that no
@@ -163,6 +116,15 @@ void add_rest(const SourceMesh& first, const MorphableMesh& mesh, const Smoothin
   }
 }
 
+void add_rest_colours(const MorphableMesh& mesh, const Positions& colours, MeshMorph& morph) {
+  Eigen::Index begin = 0;
+  for (PrimitiveMorph& primitive : morph.primitives) {
+    const Eigen::Index count = primitive.positions.rows();
+    primitive.colours = spread(colours, mesh.vertex_of_render, begin, count);
+    begin += count;
+  }
+}
+
 }  // namespace
 
 ReferenceMotion continuous_motion(const SolvedShapes& shapes, const SeparableTimeline& separable,
@@ -195,6 +157,12 @@ ReferenceMotion motion_of(const ReferenceMotion& motion, const Clip& clip) {
   part.positions_at = [&motion, begin = clip.begin](double time) {
     return motion.positions_at(begin + time);
   };
+  if (motion.colours_at) {
+    part.colours_at = [&motion, begin = clip.begin](double time) {
+      return motion.colours_at(begin + time);
+    };
+  }
+  part.first_colours = motion.first_colours;
   return part;
 }
 
@@ -204,9 +172,11 @@ MeshMorph make_mesh_morph(const SourceMesh& first, const MorphableMesh& mesh,
   MeshMorph morph = empty_morph(first);
   const Eigen::Matrix3d linear = linear_part(first);
   const Eigen::Matrix3d to_mesh = linear.inverse();
-  NormalBasis normals;
+  FittedVectors normals;
   if (groups.count > 0) normals = fit_normals(mesh, basis, groups, motions, linear);
+  const std::optional<FittedVectors> colours = fit_colours(basis, motions);
   add_rest(first, mesh, groups, basis.base, normals.rest, morph);
+  if (colours) add_rest_colours(mesh, colours->rest, morph);
   for (std::size_t k = 0; k < basis.targets.size(); ++k) {
     morph.target_names.push_back(basis.targets[k].name);
     const Positions displacement = basis.targets[k].displacement * to_mesh.transpose();
@@ -216,7 +186,12 @@ MeshMorph make_mesh_morph(const SourceMesh& first, const MorphableMesh& mesh,
       primitive.target_positions.push_back(
           spread(displacement, mesh.vertex_of_render, begin, count));
       if (groups.count > 0) {
-        primitive.target_normals.push_back(spread(normals.targets[k], groups.of_render, begin, count));
+        primitive.target_normals.push_back(
+            spread(normals.targets[k], groups.of_render, begin, count));
+      }
+      if (colours) {
+        primitive.target_colours.push_back(
+            spread(colours->targets[k], mesh.vertex_of_render, begin, count));
       }
       begin += count;
     }
@@ -228,13 +203,15 @@ MeshMorph make_mesh_morph(const SourceMesh& first, const MorphableMesh& mesh,
 }
 
 MeshMorph make_still(const SourceMesh& first, const MorphableMesh& mesh,
-                     const SmoothingGroups& groups, const Positions& positions) {
+                     const SmoothingGroups& groups, const Positions& positions,
+                     const Positions& colours) {
   MeshMorph morph = empty_morph(first);
   Normals normals;
   if (groups.count > 0) {
     normals = to_mesh_space(deformed_normals(groups, mesh, positions), linear_part(first));
   }
   add_rest(first, mesh, groups, positions, normals, morph);
+  if (colours.rows() > 0) add_rest_colours(mesh, colours, morph);
   return morph;
 }
 

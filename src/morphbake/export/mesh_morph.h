@@ -14,7 +14,10 @@ namespace morphbake {
 struct ReferenceMotion {
   std::vector<double> frame_times;                     ///< seconds, rising
   std::function<Positions(double time)> positions_at;  ///< #V by 3, scene space
-  std::string name = {};                               ///< of the clip that it is
+  /// #V by 3, linear RGB; nothing where colours do not change.
+  std::function<Positions(double time)> colours_at = {};
+  Positions first_colours = {};  ///< at the first frame of the timeline
+  std::string name = {};         ///< of the clip that it is
 };
 
 /// The motion of a separable timeline, exact at any time.
@@ -43,8 +46,11 @@ MeshMorph make_mesh_morph(const SourceMesh& first, const MorphableMesh& mesh,
                           const std::vector<ReferenceMotion>& motions);
 
 /// A plain mesh at `positions`, without targets.
+///
+/// @param colours  #V by 3, linear RGB, or no rows where the file's stand
 MeshMorph make_still(const SourceMesh& first, const MorphableMesh& mesh,
-                     const SmoothingGroups& groups, const Positions& positions);
+                     const SmoothingGroups& groups, const Positions& positions,
+                     const Positions& colours);
 
 /// How far what is written is from the motion, over all frames and the moments half-way between
 /// them.

@@ -42,11 +42,6 @@ const tinygltf::Accessor& accessor_at(const GltfDocument& document, int accessor
   return item_at(document, document.model.accessors, accessor, pointer, "accessor");
 }
 
-std::size_t component_bytes(int type) {
-  return static_cast<std::size_t>(
-      std::max(0, tinygltf::GetComponentSizeInBytes(static_cast<std::uint32_t>(type))));
-}
-
 /// @param pointer  of the accessor, or of its part that asks
 ElementSpan span_of(const GltfDocument& document, const SpanRequest& request,
                     const std::string& pointer) {
@@ -277,6 +272,17 @@ Rows read_rows(const GltfDocument& document, int index, const std::string& point
 }
 
 }  // namespace
+
+std::size_t component_bytes(int type) {
+  return static_cast<std::size_t>(
+      std::max(0, tinygltf::GetComponentSizeInBytes(static_cast<std::uint32_t>(type))));
+}
+
+std::size_t components_of(const std::string& type) {
+  if (type == "SCALAR") return 1;
+  const auto side = static_cast<std::size_t>(type.back() - '0');
+  return type.starts_with("MAT") ? side * side : side;
+}
 
 std::size_t accessor_count(const GltfDocument& document, int accessor, const std::string& pointer) {
   return accessor_at(document, accessor, pointer).count;

@@ -11,6 +11,12 @@
 
 namespace morphbake {
 
+/// Bytes of a number of `componentType`; 0 of none.
+std::size_t component_bytes(int type);
+
+/// Numbers an element of `type` has: "SCALAR", "VEC2" to "VEC4", "MAT2" to "MAT4".
+std::size_t components_of(const std::string& type);
+
 /// Elements of an accessor.
 /// @throws BakeError "gltf.accessor" when it does not exist
 std::size_t accessor_count(const GltfDocument& document, int accessor, const std::string& pointer);

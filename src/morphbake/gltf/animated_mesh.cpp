@@ -138,6 +138,8 @@ AnimatedPrimitive read_primitive(const GltfDocument& document, const tinygltf::P
     TargetGeometry target = read_target(document, source, t, vertices, pointer);
     primitive.target_positions.push_back(std::move(target.positions));
     primitive.target_normals.push_back(std::move(target.normals));
+    primitive.target_colours.push_back(read_colours(document, source.targets[t], vertices,
+                                                    fmt::format("{}/targets/{}", pointer, t)));
   }
   return primitive;
 }

@@ -39,6 +39,7 @@ struct AnimatedPrimitive {
   int image = -1;  ///< base-colour texture: index into AnimatedMesh::images, -1 for none
   std::vector<Float3s> target_positions;  ///< one a target: #V by 3 displacement, or no rows
   std::vector<Float3s> target_normals;    ///< one a target: #V by 3 displacement, or no rows
+  std::vector<Float3s> target_colours;    ///< one a target: #V by 3 differences, or no rows
 };
 
 /// A node's mesh with its morph targets and their weights animation: what a viewer plays.

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "morphbake/gltf/accessors.h"
 #include "morphbake/gltf/draft_references.h"
 #include "morphbake/gltf/packed_parts.h"
 
@@ -31,16 +32,6 @@ struct ViewUse {
   bool is_indices = false;    ///< indices of anything
   bool is_numbers = false;    ///< anything else
 };
-
-std::size_t component_bytes(int type) {
-  return type == 5120 || type == 5121 ? 1 : type == 5122 || type == 5123 ? 2 : 4;
-}
-
-std::size_t components_of(const std::string& type) {
-  if (type == "SCALAR") return 1;
-  const auto side = static_cast<std::size_t>(type.back() - '0');
-  return type.starts_with("MAT") ? side * side : side;
-}
 
 void note_use(ViewUse& use, std::size_t element) {
   ++use.references;
@@ -157,9 +148,8 @@ std::string compress_meshopt(const GltfFile& file) {
   const std::vector<ViewUse> uses = uses_of(draft);
   for (std::size_t v = 0; v < draft.views.size(); ++v) {
     Json& view = draft.views[v];
-    const std::string_view bytes =
-        std::string_view(binary)
-            .substr(view.value("byteOffset", std::size_t{0}), view.at("byteLength"));
+    const std::string_view bytes = std::string_view(binary).substr(
+        view.value("byteOffset", std::size_t{0}), view.at("byteLength"));
     const std::optional<Packing> packing = packing_of(uses[v], view, references.views[v]);
     const std::string small = packing ? packed(*packing, bytes) : std::string();
     if (small.empty() || small.size() >= bytes.size()) {

@@ -60,8 +60,7 @@ int Displacements::append(const Float3s& rows) {
 
 int Displacements::append_sparse(const std::vector<std::uint32_t>& moving, const Float3s& rows) {
   const Float3s values = rows(moving, Eigen::all);
-  Json sparse =
-      append_sparse_fields(draft_, moving, values.data(), moving.size() * kVectorBytes);
+  Json sparse = append_sparse_fields(draft_, moving, values.data(), moving.size() * kVectorBytes);
   return append_accessor(draft_, {{"componentType", kFloatComponent},
                                   {"count", rows.rows()},
                                   {"type", "VEC3"},

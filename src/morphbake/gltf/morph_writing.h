@@ -47,6 +47,9 @@ void drop_skin(MorphWriting& writing);
 /// weights at rest.
 void place_base(MorphWriting& writing);
 
+/// Gives the mesh the morph's colours, where it has some.
+void place_colours(MorphWriting& writing);
+
 /// Appends the morph's targets with their names and weights.
 void place_targets(MorphWriting& writing);
 

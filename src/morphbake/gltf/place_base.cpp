@@ -105,4 +105,12 @@ void place_base(MorphWriting& writing) {
   replace_attribute(writing, normals);
 }
 
+void place_colours(MorphWriting& writing) {
+  NewAttribute colours{"COLOR_0", {}};
+  for (const PrimitiveMorph& primitive : writing.morph.primitives) {
+    colours.rows.push_back(primitive.colours);
+  }
+  replace_attribute(writing, colours);
+}
+
 }  // namespace morphbake

@@ -33,6 +33,9 @@ void append_targets(MorphWriting& writing, Displacements& displacements,
     if (!morph.target_normals.empty()) {
       target["NORMAL"] = displacements.append(morph.target_normals[t]);
     }
+    if (!morph.target_colours.empty()) {
+      target["COLOR_0"] = displacements.append(morph.target_colours[t]);
+    }
     primitive["targets"].push_back(std::move(target));
   }
   const auto targets = primitive.find("targets");

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <cstring>
 #include <map>
 #include <optional>
 #include <utility>
@@ -19,8 +20,7 @@
 namespace morphbake {
 namespace {
 
-constexpr int kShort = 5122;
-constexpr int kLargest = 32767;
+constexpr int kByte = 5120, kShort = 5122;
 constexpr const char* kQuantization = "KHR_mesh_quantization";
 
 /// From mesh space to fractions of a cube.
@@ -79,58 +79,72 @@ Cube cube_about(Quantising& work) {
   return cube;
 }
 
-using Shorts = Eigen::Matrix<std::int16_t, Eigen::Dynamic, 4, Eigen::RowMajor>;  // the last is 0
+using Integers = Eigen::Matrix<int, Eigen::Dynamic, 3, Eigen::RowMajor>;
+
+/// The largest number of an integer of some bytes.
+int largest_of(int bytes) { return bytes == 1 ? 127 : 32767; }
 
 /// @param fractions  within [-1, 1]
-Shorts integers_of(const Float3s& fractions, int bits) {
-  const int step = 1 << (16 - bits);
-  Shorts integers = Shorts::Zero(fractions.rows(), 4);
-  for (Eigen::Index i = 0; i < fractions.rows(); ++i) {
+Integers integers_of(const Float3s& fractions, int bytes) {
+  const int most = largest_of(bytes);
+  return (fractions * static_cast<float>(most)).unaryExpr([most](float x) {
+    return std::clamp(static_cast<int>(std::round(x)), -most, most);
+  });
+}
+
+/// Bytes of the rows, each followed by room up to `stride`.
+std::string packed_rows(const Integers& rows, int bytes, std::size_t stride) {
+  std::string packed(stride * static_cast<std::size_t>(rows.rows()), '\0');
+  for (Eigen::Index i = 0; i < rows.rows(); ++i) {
     for (int axis = 0; axis < 3; ++axis) {
-      const float steps = std::round(fractions(i, axis) * static_cast<float>(kLargest) /
-                                     static_cast<float>(step));
-      const int most = kLargest / step;
-      integers(i, axis) = static_cast<std::int16_t>(
-          step * std::clamp(static_cast<int>(steps), -most, most));
+      const auto number =
+          static_cast<std::int16_t>(rows(i, axis));  // its first byte is an 8-bit one
+      std::memcpy(
+          &packed[stride * static_cast<std::size_t>(i) + static_cast<std::size_t>(bytes * axis)],
+          &number, static_cast<std::size_t>(bytes));
     }
   }
-  return integers;
+  return packed;
 }
 
 /// An accessor of integers, without its bytes.
-Json short_accessor(const Shorts& rows) {
-  const auto vectors = rows.leftCols(3).cast<int>();
+Json integer_accessor(const Integers& rows, int bytes) {
   Json least = Json::array(), most = Json::array();
   for (int axis = 0; axis < 3; ++axis) {
-    least.push_back(rows.rows() > 0 ? vectors.col(axis).minCoeff() : 0);
-    most.push_back(rows.rows() > 0 ? vectors.col(axis).maxCoeff() : 0);
+    least.push_back(rows.rows() > 0 ? rows.col(axis).minCoeff() : 0);
+    most.push_back(rows.rows() > 0 ? rows.col(axis).maxCoeff() : 0);
   }
-  return {{"componentType", kShort}, {"normalized", true}, {"count", rows.rows()},
-          {"type", "VEC3"},          {"min", least},       {"max", most}};
+  return {{"componentType", bytes == 1 ? kByte : kShort},
+          {"normalized", true},
+          {"count", rows.rows()},
+          {"type", "VEC3"},
+          {"min", least},
+          {"max", most}};
 }
 
-int append_dense(GlbDraft& draft, const Shorts& rows) {
-  const auto bytes = static_cast<std::size_t>(rows.size()) * sizeof(std::int16_t);
-  Json view = append_bytes(draft, rows.data(), bytes, BufferUse::Vertices);
-  view["byteStride"] = 4 * sizeof(std::int16_t);
-  Json accessor = short_accessor(rows);
+int append_dense(GlbDraft& draft, const Integers& rows, int bytes) {
+  const std::size_t stride = bytes == 1 ? 4 : 8;
+  const std::string packed = packed_rows(rows, bytes, stride);
+  Json view = append_bytes(draft, packed.data(), packed.size(), BufferUse::Vertices);
+  view["byteStride"] = stride;
+  Json accessor = integer_accessor(rows, bytes);
   accessor["bufferView"] = add_view(draft, std::move(view));
   return append_accessor(draft, std::move(accessor));
 }
 
-int append_sparse(GlbDraft& draft, const Shorts& rows, const std::vector<std::uint32_t>& moving) {
-  using Packed = Eigen::Matrix<std::int16_t, Eigen::Dynamic, 3, Eigen::RowMajor>;
-  const Packed values = rows.leftCols(3)(moving, Eigen::all);
-  Json accessor = short_accessor(rows);
-  accessor["sparse"] = append_sparse_fields(draft, moving, values.data(),
-                                            static_cast<std::size_t>(values.size()) * sizeof(std::int16_t));
+int append_sparse(GlbDraft& draft, const Integers& rows, int bytes,
+                  const std::vector<std::uint32_t>& moving) {
+  const Integers moved = rows(moving, Eigen::all);
+  const std::string packed = packed_rows(moved, bytes, 3 * static_cast<std::size_t>(bytes));
+  Json accessor = integer_accessor(rows, bytes);
+  accessor["sparse"] = append_sparse_fields(draft, moving, packed.data(), packed.size());
   return append_accessor(draft, std::move(accessor));
 }
 
 /// Puts integers in the place of an attribute's floats; `fractions` makes them of rows, or nothing
 /// where they stay.
 template <typename Fractions>
-void quantise_attribute(Quantising& work, const char* attribute, int bits,
+void quantise_attribute(Quantising& work, const char* attribute, int bytes,
                         const Fractions& fractions) {
   std::map<std::pair<int, bool>, int> made;
   for_each_accessor(primitives_of(work), attribute, [&](Json& accessor, bool is_moved) {
@@ -142,11 +156,11 @@ void quantise_attribute(Quantising& work, const char* attribute, int bits,
       const bool is_zero = is_moved && moving.empty();  // and stays what it is
       const std::optional<Float3s> fractioned = is_zero ? std::nullopt : fractions(rows, is_moved);
       if (fractioned) {
-        const Shorts integers = integers_of(*fractioned, bits);
+        const Integers integers = integers_of(*fractioned, bytes);
         const bool is_sparse =
             work.draft.accessors[static_cast<std::size_t>(old)].contains("sparse");
-        entry->second = is_moved && is_sparse ? append_sparse(work.draft, integers, moving)
-                                              : append_dense(work.draft, integers);
+        entry->second = is_moved && is_sparse ? append_sparse(work.draft, integers, bytes, moving)
+                                              : append_dense(work.draft, integers, bytes);
       }
     }
     if (entry->second < 0) return;
@@ -175,7 +189,8 @@ void redirect_weights(Json& json, std::size_t from, std::size_t to) {
   for (Json& animation : json["animations"]) {
     for (Json& channel : animation.at("channels")) {
       Json& target = channel.at("target");
-      if (target.value("path", "") == "weights" && target.value("node", -1) == static_cast<int>(from)) {
+      if (target.value("path", "") == "weights" &&
+          target.value("node", -1) == static_cast<int>(from)) {
         target["node"] = to;
       }
       if (!target.contains("extensions")) continue;
@@ -208,7 +223,7 @@ std::size_t lower_mesh(Quantising& work, std::size_t node, const Cube& cube) {
 
 }  // namespace
 
-EncodedMorph quantise_mesh(const GltfFile& file, int node, const QuantisedBits& bits) {
+EncodedMorph quantise_mesh(const GltfFile& file, int node, const QuantisedSteps& steps) {
   const GltfDocument& document = *file;
   Quantising work{document, join_buffers(document.json, document.buffers), {}, 0};
   work.draft.shown = document.file;
@@ -221,13 +236,14 @@ EncodedMorph quantise_mesh(const GltfFile& file, int node, const QuantisedBits& 
     require_free(work, n);
     users.push_back(n);
   }
-  const Cube cube = cube_about(work);
-  quantise_attribute(work, "POSITION", bits.positions,
+  Cube cube = cube_about(work);
+  cube.half = std::max(cube.half, static_cast<float>(steps.position * largest_of(2)));
+  quantise_attribute(work, "POSITION", 2,
                      [&](const Float3s& rows, bool is_moved) -> std::optional<Float3s> {
                        if (is_moved) return Float3s(rows / cube.half);
                        return Float3s((rows.rowwise() - cube.centre) / cube.half);
                      });
-  quantise_attribute(work, "NORMAL", bits.normals,
+  quantise_attribute(work, "NORMAL", steps.normal_bits / 8,
                      [](const Float3s& rows, bool) -> std::optional<Float3s> {
                        constexpr float kRounding = 1e-6F;  // of unit normals
                        if (!(rows.cwiseAbs().maxCoeff() <= 1 + kRounding)) return {};

@@ -12,13 +12,14 @@ struct EncodedMorph {
   int node = 0;  ///< that shows the morph's mesh
 };
 
-/// How fine integers are: of all 16 bits the first ones, the others are 0, which compresses well.
-struct QuantisedBits {
-  int positions = 16;
-  int normals = 16;
+/// How fine integers are.
+struct QuantisedSteps {
+  double position =
+      0;  ///< mesh space, where 16 bits are finer than that: few numbers compress well
+  int normal_bits = 16;  ///< 16 or 8
 };
 
-/// Positions and normals of a node's mesh, with their displacements, as 16-bit integers
+/// Positions and normals of a node's mesh, with their displacements, as integers
 /// (KHR_mesh_quantization); whatever else the file has stays as it is.
 ///
 /// Positions are fractions of a cube about the mesh, whose place and size a new node below each
@@ -27,6 +28,6 @@ struct QuantisedBits {
 /// @param file  as write_morph_glb() writes it
 /// @throws BakeError "export.cannot-quantise" when a skin or instances place the mesh;
 ///         "output.too-large"
-EncodedMorph quantise_mesh(const GltfFile& file, int node, const QuantisedBits& bits = {});
+EncodedMorph quantise_mesh(const GltfFile& file, int node, const QuantisedSteps& steps = {});
 
 }  // namespace morphbake

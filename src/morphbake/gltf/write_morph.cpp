@@ -119,6 +119,7 @@ std::string write_morph_glb(const GltfFile& source, const MeshMorph& morph,
   writing.references = references_in(draft);
   if (morph.drops_skin) drop_skin(writing);
   if (morph.replaces_base) place_base(writing);
+  place_colours(writing);
   if (!morph.target_names.empty()) {
     extend_animations(writing);
     place_targets(writing);

@@ -14,6 +14,8 @@ struct PrimitiveMorph {
   Float3s normals;                        ///< #V by 3, or no rows when the file has none
   std::vector<Float3s> target_positions;  ///< one a target: #V by 3 displacement
   std::vector<Float3s> target_normals;    ///< one a target, or empty: #V by 3 displacement
+  Float3s colours = {};  ///< #V by 3 linear RGB, instead of the file's COLOR_0; or no rows
+  std::vector<Float3s> target_colours = {};  ///< one a target, or empty: #V by 3 differences
   /// One a vertex: whether it is part of the surface. Empty: all are. Primitives may share their
   /// vertices, of which each has its own.
   std::vector<bool> is_used = {};

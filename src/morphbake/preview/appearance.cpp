@@ -125,13 +125,12 @@ Eigen::Array3f texture_at(const MipLevels& texture, const Eigen::Vector2f& uv, f
 }
 
 Eigen::Array3f base_colour_at(const AnimatedMesh& mesh, const Appearance& appearance,
-                              const RayHit& hit, float footprint, float triangle_area) {
+                              const Float3s& colours, const RayHit& hit, float footprint,
+                              float triangle_area) {
   const std::size_t index = static_cast<std::size_t>(hit.primitive);
   const AnimatedPrimitive& primitive = mesh.primitives[index];
   Eigen::Array3f colour = appearance.factors[index];
-  if (primitive.colours.rows() > 0) {
-    colour *= interpolated(primitive.colours, primitive.triangles, hit).array();
-  }
+  if (colours.rows() > 0) colour *= interpolated(colours, primitive.triangles, hit).array();
   const MipLevels* found = texture_of(primitive, appearance);
   if (found != nullptr) {
     const MipLevels& texture = *found;

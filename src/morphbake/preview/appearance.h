@@ -31,10 +31,12 @@ const MipLevels* texture_of(const AnimatedPrimitive& primitive, const Appearance
 
 /// Linear RGB of the base-colour factor times COLOR_0 times the texture at `hit` (glTF 2.0, 3.9.2).
 ///
+/// @param colours    of the primitive that is hit: #V by 3 COLOR_0, morphed, or no rows
 /// @param footprint  width of a sample on the surface, studio units; chooses the texture's level
 /// @param triangle_area  studio units squared
 Eigen::Array3f base_colour_at(const AnimatedMesh& mesh, const Appearance& appearance,
-                              const RayHit& hit, float footprint, float triangle_area);
+                              const Float3s& colours, const RayHit& hit, float footprint,
+                              float triangle_area);
 
 /// Linear RGB of a texture at `uv` (repeating; 0, 0 is the top left corner) between the two levels
 /// around `level` (0 is the full picture), bilinear in each.

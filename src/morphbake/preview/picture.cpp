@@ -74,8 +74,8 @@ VisiblePoint visible_point(const Scene& scene, const RayHit& hit, const Eigen::V
     }
   }
   point.origin += kLift * face;
-  point.base_colour = base_colour_at(scene.mesh, scene.appearance, hit, footprint * point.distance,
-                                     hit.face_normal.norm() / 2);
+  point.base_colour = base_colour_at(scene.mesh, scene.appearance, pose.colours, hit,
+                                     footprint * point.distance, hit.face_normal.norm() / 2);
   return point;
 }
 

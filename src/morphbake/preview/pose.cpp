@@ -32,6 +32,8 @@ void pose_primitive(const AnimatedPrimitive& primitive, const Eigen::VectorXd& w
     positions.row(i) = moved.cast<float>().transpose();
   }
 
+  pose.colours = primitive.colours;
+  if (pose.colours.rows() > 0) add_targets(primitive.target_colours, weights, pose.colours);
   pose.normals = primitive.normals;
   if (pose.normals.rows() == 0) return;
   add_targets(primitive.target_normals, weights, pose.normals);

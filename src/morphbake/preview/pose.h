@@ -13,6 +13,7 @@ struct PosedPrimitive {
   /// (#V + 1) by 3: Embree reads 16 bytes at the last vertex, so one row of padding follows it.
   Float3s positions;
   Float3s normals;  ///< #V by 3 of unit length (zero where the file's are), or no rows
+  Float3s colours;  ///< #V by 3 linear RGB, or no rows: white
 };
 
 /// Morphs `primitive` (base + sum of weight times target, glTF 2.0, 3.7.2.2) and transforms it.

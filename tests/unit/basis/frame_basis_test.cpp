@@ -41,8 +41,8 @@ FrameSource moving(int frames, int vertices, const Path& path) {
   for (int f = 0; f < frames; ++f) {
     Positions& frame = all.emplace_back(vertices, 3);
     for (int v = 0; v < vertices; ++v) {
-      frame.row(v) = Eigen::RowVector3d(std::sin(v), std::cos(3.0 * v), std::sin(7.0 * v)) +
-                     path(f, v);
+      frame.row(v) =
+          Eigen::RowVector3d(std::sin(v), std::cos(3.0 * v), std::sin(7.0 * v)) + path(f, v);
     }
   }
   return frames_of(std::move(all));
@@ -71,8 +71,8 @@ Positions shown_at(const MorphBasis& basis, double time) {
 double largest_error(const MorphBasis& basis, const FrameSource& frames) {
   double error = 0;
   for (std::size_t f = 0; f < frames.times.size(); ++f) {
-    error = std::max(error,
-                     largest_distance(shown_at(basis, frames.times[f]), frames.positions(f)));
+    error =
+        std::max(error, largest_distance(shown_at(basis, frames.times[f]), frames.positions(f)));
   }
   return error;
 }

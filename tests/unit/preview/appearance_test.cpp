@@ -56,7 +56,9 @@ TEST(Appearance, MultipliesFactorVertexColourAndTexture) {
   mesh.images = {encode_png(four_texels())};
   RayHit hit;
   hit.barycentric = {0.2f, 0.3f, 0.5f};
-  expect_near(base_colour_at(mesh, make_appearance(mesh), hit, 1e-6f, 1e-3f), 0.25f, 0, 0);
+  expect_near(
+      base_colour_at(mesh, make_appearance(mesh), mesh.primitives[0].colours, hit, 1e-6f, 1e-3f),
+      0.25f, 0, 0);
 }
 
 }  // namespace
