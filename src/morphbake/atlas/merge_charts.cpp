@@ -14,9 +14,9 @@ namespace {
 
 /// A cap with half-angle t has the bend 1 - ((1 + cos t) / 2)^2: this is one of 60 degrees.
 constexpr double kMostBend = 0.45;
-constexpr double kRoundness = 0.02;  // of a border's length squared by area, against the bend
-constexpr double kHardness = 1.0;    // of the hard share of a common border, against the bend
-constexpr int kStride = 1024;        // merges between two looks whether to stop
+constexpr double kRoundness = 0.1;  // of a border's length squared by area, against the bend
+constexpr double kHardness = 1.0;   // of the hard share of a common border, against the bend
+constexpr int kStride = 1024;       // merges between two looks whether to stop
 
 /// An edge of the mesh with the triangles on its sides, -1 beyond a border.
 struct ChartEdge {
