@@ -5,8 +5,9 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
-#include <mutex>
+#include <utility>
 
 #include "morphbake/atlas/fill_gaps.h"
 #include "morphbake/images/srgb.h"
@@ -26,9 +27,9 @@ struct FlatTriangle {
 FlatTriangle flat_triangle(const Atlas& atlas, const Mesh& mesh, int f) {
   FlatTriangle flat;
   Eigen::Matrix3d corners;
+  const int* places = &atlas.of_corner[3 * static_cast<std::size_t>(f)];
   for (int k = 0; k < 3; ++k) {
-    flat.corners.row(k) =
-        atlas.places.row(atlas.of_corner[static_cast<std::size_t>(3 * f + k)]) * atlas.size;
+    flat.corners.row(k) = atlas.places.row(places[k]) * atlas.size;
     corners.row(k) = mesh.positions.row(mesh.triangles(f, k));
   }
   const Eigen::RowVector2d a = flat.corners.row(1) - flat.corners.row(0);
@@ -123,16 +124,23 @@ void cover(const Atlas& atlas, const FlatTriangle& flat, int triangle, Band& ban
   }
 }
 
-void paint_row(const Atlas& atlas, const std::vector<FlatTriangle>& flat, const Band& band, int row,
-               const TexelColours& colours, Image& image, std::vector<char>& known) {
+/// The picture in the making.
+struct Painting {
+  const Atlas& atlas;
+  std::vector<FlatTriangle> flat;  ///< #F
+  Image image;
+  std::vector<char> known;  ///< one a texel
+};
+
+void paint_row(const Band& band, int row, const TexelColours& colours, Painting& painting) {
   std::vector<AtlasTexel> texels;
   std::vector<std::size_t> pixels;
-  const auto size = static_cast<std::size_t>(atlas.size);
-  for (int column = 0; column < atlas.size; ++column) {
+  const auto size = static_cast<std::size_t>(painting.atlas.size);
+  for (int column = 0; column < painting.atlas.size; ++column) {
     const auto i =
         static_cast<std::size_t>(row - band.first_row) * size + static_cast<std::size_t>(column);
     if (band.triangle[i] < 0) continue;
-    const FlatTriangle& triangle = flat[static_cast<std::size_t>(band.triangle[i])];
+    const FlatTriangle& triangle = painting.flat[static_cast<std::size_t>(band.triangle[i])];
     texels.push_back(
         {{band.triangle[i], nearest_in(triangle, centre_of(column, row))}, triangle.width});
     pixels.push_back(static_cast<std::size_t>(row) * size + static_cast<std::size_t>(column));
@@ -140,37 +148,43 @@ void paint_row(const Atlas& atlas, const std::vector<FlatTriangle>& flat, const 
   if (texels.empty()) return;
   const std::vector<Eigen::Array3f> found = colours(texels);
   for (std::size_t i = 0; i < pixels.size(); ++i) {
-    known[pixels[i]] = 1;
-    for (int c = 0; c < 3; ++c) {
-      image.rgb[3 * pixels[i] + static_cast<std::size_t>(c)] = linear_to_srgb(found[i](c));
-    }
+    painting.known[pixels[i]] = 1;
+    std::uint8_t* rgb = &painting.image.rgb[3 * pixels[i]];
+    for (int c = 0; c < 3; ++c) rgb[c] = linear_to_srgb(found[i](c));
   }
+}
+
+/// Texels of a band that nothing is near to yet.
+Band empty_band(int number, int size) {
+  Band band;
+  band.first_row = number * kBandRows;
+  band.rows = std::min(kBandRows, size - band.first_row);
+  band.triangle.assign(static_cast<std::size_t>(band.rows) * static_cast<std::size_t>(size), -1);
+  band.distance.assign(band.triangle.size(), std::numeric_limits<double>::infinity());
+  return band;
 }
 
 }  // namespace
 
 Image paint_atlas(const Atlas& atlas, const Mesh& mesh, const TexelColours& colours,
                   const Observer& observer) {
-  const auto size = static_cast<std::size_t>(atlas.size);
-  Image image{atlas.size, atlas.size, std::vector<std::uint8_t>(3 * size * size)};
-  std::vector<char> known(size * size, 0);
-  std::vector<FlatTriangle> flat;
-  for (int f = 0; f < mesh.triangles.rows(); ++f) flat.push_back(flat_triangle(atlas, mesh, f));
-  const std::vector<std::vector<int>> bands = triangles_of_bands(atlas, flat);
+  const auto texels = static_cast<std::size_t>(atlas.size) * static_cast<std::size_t>(atlas.size);
+  Painting painting{atlas, {}, {atlas.size, atlas.size, {}}, std::vector<char>(texels, 0)};
+  painting.image.rgb.resize(3 * texels);
+  for (int f = 0; f < mesh.triangles.rows(); ++f) {
+    painting.flat.push_back(flat_triangle(atlas, mesh, f));
+  }
+  const std::vector<std::vector<int>> bands = triangles_of_bands(atlas, painting.flat);
   tbb::parallel_for(std::size_t{0}, bands.size(), [&](std::size_t b) {
     stop_if_cancelled(observer);
-    Band band;
-    band.first_row = static_cast<int>(b) * kBandRows;
-    band.rows = std::min(kBandRows, atlas.size - band.first_row);
-    band.triangle.assign(static_cast<std::size_t>(band.rows) * size, -1);
-    band.distance.assign(band.triangle.size(), std::numeric_limits<double>::infinity());
-    for (const int f : bands[b]) cover(atlas, flat[static_cast<std::size_t>(f)], f, band);
+    Band band = empty_band(static_cast<int>(b), atlas.size);
+    for (const int f : bands[b]) cover(atlas, painting.flat[static_cast<std::size_t>(f)], f, band);
     for (int row = band.first_row; row < band.first_row + band.rows; ++row) {
-      paint_row(atlas, flat, band, row, colours, image, known);
+      paint_row(band, row, colours, painting);
     }
   });
-  fill_gaps(image, known);
-  return image;
+  fill_gaps(painting.image, painting.known);
+  return std::move(painting.image);
 }
 
 }  // namespace morphbake
