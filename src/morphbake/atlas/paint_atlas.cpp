@@ -16,7 +16,8 @@
 namespace morphbake {
 namespace {
 
-constexpr int kBandRows = 32;  // that are painted at a time, for little memory
+constexpr int kBandRows = 32;             // that are painted at a time, for little memory
+constexpr std::size_t kBandsAtOnce = 16;  // between two words about the progress
 
 /// A triangle on the picture, in texels.
 struct FlatTriangle {
@@ -164,6 +165,18 @@ Band empty_band(int number, int size) {
   return band;
 }
 
+/// @param triangles  that come near the band
+void paint_band(int number, const std::vector<int>& triangles, const TexelColours& colours,
+                Painting& painting) {
+  Band band = empty_band(number, painting.atlas.size);
+  for (const int f : triangles) {
+    cover(painting.atlas, painting.flat[static_cast<std::size_t>(f)], f, band);
+  }
+  for (int row = band.first_row; row < band.first_row + band.rows; ++row) {
+    paint_row(band, row, colours, painting);
+  }
+}
+
 }  // namespace
 
 Image paint_atlas(const Atlas& atlas, const Mesh& mesh, const TexelColours& colours,
@@ -175,14 +188,14 @@ Image paint_atlas(const Atlas& atlas, const Mesh& mesh, const TexelColours& colo
     painting.flat.push_back(flat_triangle(atlas, mesh, f));
   }
   const std::vector<std::vector<int>> bands = triangles_of_bands(atlas, painting.flat);
-  tbb::parallel_for(std::size_t{0}, bands.size(), [&](std::size_t b) {
-    stop_if_cancelled(observer);
-    Band band = empty_band(static_cast<int>(b), atlas.size);
-    for (const int f : bands[b]) cover(atlas, painting.flat[static_cast<std::size_t>(f)], f, band);
-    for (int row = band.first_row; row < band.first_row + band.rows; ++row) {
-      paint_row(band, row, colours, painting);
-    }
-  });
+  for (std::size_t first = 0; first < bands.size(); first += kBandsAtOnce) {
+    advance(observer, {"texture", static_cast<int>(first), static_cast<int>(bands.size())});
+    const std::size_t last = std::min(bands.size(), first + kBandsAtOnce);
+    tbb::parallel_for(first, last, [&](std::size_t b) {
+      stop_if_cancelled(observer);
+      paint_band(static_cast<int>(b), bands[b], colours, painting);
+    });
+  }
   fill_gaps(painting.image, painting.known);
   return std::move(painting.image);
 }
