@@ -1,7 +1,7 @@
 // A texture that remesh paints shows at every point of the new surface what the source's own shows there.
 // Usage: node texture_test.mjs --morphbake PROGRAM RECIPE    a recipe with connectivity.texture of its first source
 import { spawnSync } from 'node:child_process';
-import { readFileSync } from 'node:fs';
+import { readFileSync, writeFileSync } from 'node:fs';
 import path from 'node:path';
 import { countIssues } from './issues.mjs';
 import { readPng } from './read_png.mjs';
@@ -164,15 +164,36 @@ const sameRows = (a, b) => JSON.stringify(a) === JSON.stringify(b);
 const sorted = (lines) => lines.map(String).sort();
 const texcoords = (plain) => rows(plain, plain.json.meshes[0].primitives[0].attributes.TEXCOORD_0);
 
+/** Places with their normals, each once: what the texture splits is one of them. */
+function shadedPoints({ json, bin }) {
+  const { attributes } = json.meshes[0].primitives[0];
+  const normals = rows({ json, bin }, attributes.NORMAL);
+  return [...new Set(rows({ json, bin }, attributes.POSITION).map((place, i) => `${place} ${normals[i]}`))].sort();
+}
+
+function remesh(recipe, file, folder) {
+  writeFileSync(file, JSON.stringify(recipe));
+  const run = spawnSync(morphbake, ['remesh', file, '-o', folder, '--sheet', 'none'], { encoding: 'utf8' });
+  return checks.check(run.status === 0, run.stderr);
+}
+
 await withFolder(async (folder) => {
-  const run = spawnSync(morphbake, ['remesh', recipeFile, '-o', folder, '--sheet', 'none'], { encoding: 'utf8' });
-  if (!checks.check(run.status === 0, run.stderr)) return;
   const recipe = JSON.parse(readFileSync(recipeFile, 'utf8'));
+  for (const [name, file] of Object.entries(recipe.sources)) {
+    const source = path.resolve(path.dirname(recipeFile), file);
+    recipe.sources[name] = { file: source, landmarks: source.replace(/glb$/, 'landmarks.json') };
+  }
+  const plain = path.join(folder, 'plain');
+  const untextured = { ...recipe, connectivity: { ...recipe.connectivity, texture: undefined } };
+  if (!remesh(untextured, path.join(folder, 'plain.json'), plain)) return;
+  if (!remesh(recipe, path.join(folder, 'textured.json'), folder)) return;
   const [first, second] = Object.keys(recipe.sources);
   const textured = await checkFile(path.join(folder, `${first}.glb`));
   const other = await checkFile(path.join(folder, `${second}.glb`), textured.images[0]);
   checks.check(sameRows(texcoords(textured), texcoords(other)), 'the sources have different coordinates');
-  const source = await openPlain(path.resolve(path.dirname(recipeFile), recipe.sources[first]));
+  checks.check(sameRows(shadedPoints(textured), shadedPoints(await openPlain(path.join(plain, `${first}.glb`)))),
+    'the texture changes places or normals');
+  const source = await openPlain(recipe.sources[first].file);
   compareColours(trianglesOf(textured), trianglesOf(source));
   const { outputs: [{ file }] } = bake(morphbake, recipeFile, folder);
   const baked = await checkFile(file, textured.images[0]);
