@@ -30,7 +30,7 @@ using ExactPoint = CGAL::Exact_predicates_inexact_constructions_kernel::Point_2;
 
 constexpr double kMostStretch = 2;        // of lengths, or its inverse ...
 constexpr double kStretchedShare = 0.02;  // ... but for this share of the area, at most
-constexpr double kMostScale = 3;          // of the mean length in any triangle, or its inverse
+constexpr double kMostScale = 2;          // of the mean length in any triangle, or its inverse
 
 /// Corners of a triangle in its own plane, the first at the origin; columns are corners 1 and 2.
 Eigen::Matrix2d own_plane(const Mesh& mesh, int triangle) {

@@ -18,9 +18,8 @@ struct FlatChart {
 /// Lays a disk flat with angles kept as well as possible, its whole area that of the surface.
 ///
 /// @param triangles  a disk of the mesh; a single one is only laid down
-/// @return nothing when a triangle is turned over, triangles overlap, lengths of more than 2 % of
-///         the area are halved or doubled, or those of any triangle become a third or three times
-///         as long
+/// @return nothing when a triangle is turned over, triangles overlap, the mean length in a triangle
+///         is halved or doubled, or that in any one direction on more than 2 % of the area
 /// @see Lévy, Petitjean, Ray, Maillot 2002: least squares conformal maps
 std::optional<FlatChart> flatten_chart(const Mesh& mesh, const std::vector<int>& triangles);
 
