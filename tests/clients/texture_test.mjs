@@ -36,7 +36,7 @@ function rows({ json, bin }, index) {
     data[read](begin + i * stride + c * size, true) / (normalized ? most : 1)));
 }
 
-/** All triangles of the first mesh: corners, texture coordinates, texture (or none) and factor. */
+/** All triangles of the first mesh with what colours them. */
 function trianglesOf(plain) {
   const { json, images } = plain;
   const pictures = images.map(readPng);
@@ -44,13 +44,17 @@ function trianglesOf(plain) {
     const { baseColorFactor = [1, 1, 1, 1], baseColorTexture } = json.materials?.[material]?.pbrMetallicRoughness ?? {};
     const positions = rows(plain, attributes.POSITION);
     const uvs = attributes.TEXCOORD_0 === undefined ? positions.map(() => [0, 0]) : rows(plain, attributes.TEXCOORD_0);
+    const vertexColours = attributes.COLOR_0 === undefined ? positions.map(() => [1, 1, 1]) : rows(plain, attributes.COLOR_0);
     const order = indices === undefined ? positions.map((_, i) => i) : rows(plain, indices).flat();
     const picture = baseColorTexture && pictures[json.textures[baseColorTexture.index].source];
     return Array.from({ length: order.length / 3 }, (_, f) => {
       const at = order.slice(3 * f, 3 * f + 3);
       const corners = at.map((i) => positions[i]);
       const normal = cross(subtract(corners[1], corners[0]), subtract(corners[2], corners[0]));
-      return { corners, uv: at.map((i) => uvs[i]), picture, factor: baseColorFactor, normal, area: length(normal) / 2 };
+      return {
+        corners, normal, area: length(normal) / 2, picture, uv: at.map((i) => uvs[i]),
+        colours: at.map((i) => vertexColours[i]), factor: baseColorFactor,
+      };
     });
   });
 }
@@ -63,9 +67,10 @@ function bilinear({ width, height, channels, pixels }, [u, v]) {
   return mix([texel(i, j), texel(i + 1, j), texel(i, j + 1), texel(i + 1, j + 1)], [(1 - a) * (1 - b), a * (1 - b), (1 - a) * b, a * b]);
 }
 
-function colourOf({ uv, picture, factor }, weights) {
+function colourOf({ uv, colours, picture, factor }, weights) {
   const texel = picture ? bilinear(picture, mix(uv, weights)) : [1, 1, 1];
-  return texel.map((value, c) => value * factor[c]);
+  const vertex = mix(colours, weights);
+  return texel.map((value, c) => value * vertex[c] * factor[c]);
 }
 
 /** Barycentric coordinates of the triangle's point closest to `p` (Ericson, Real-Time Collision Detection, 5.1.5). */
