@@ -14,7 +14,7 @@ set(OWNERS
     "^valijson/=json"
     "^tiny_gltf\\.h$=gltf"
     "^stb_image.*\\.h$=gltf"
-    "^(CGAL|boost)/=mesh sources correspondence connectivity transition"
+    "^(CGAL|boost)/=mesh sources correspondence connectivity atlas transition"
     "^(cholmod|umfpack|SuiteSparse.*|cblas|metis)\\.h$=linear"
     "^(suitesparse|Spectra)/=linear"
     "^OpenImageIO/=images"

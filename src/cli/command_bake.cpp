@@ -82,9 +82,8 @@ std::vector<std::string> summary_lines(const BakeReport& report) {
     lines.push_back(
         fmt::format("  {}: {}", output.file.filename().string(), shown_bytes(output.bytes)));
     if (output.targets.empty()) continue;
-    lines.push_back(
-        fmt::format("    {} targets ({}): {}", output.targets.size(), output.kind,
-                    shown_names(output.targets)));
+    lines.push_back(fmt::format("    {} targets ({}): {}", output.targets.size(), output.kind,
+                                shown_names(output.targets)));
     lines.push_back(fmt::format(
         "    {} keys; error {:.1e} of the diagonal, normals {:.2f} degrees (99 in 100: {:.2f})",
         output.weight_keys, output.max_error, output.normals.maximum,

@@ -27,6 +27,11 @@ std::vector<std::string> summary_lines(const RemeshReport& report) {
   for (const StageReport& step : connectivity.steps) seconds += step.seconds;
   lines.push_back(fmt::format("{}: {} vertices, {} triangles in {:.2f} s", report.recipe,
                               connectivity.vertices, connectivity.triangles, seconds));
+  if (const auto& texture = connectivity.texture) {
+    lines.push_back(fmt::format("  texture: {} x {} texels, {} charts cover {:.0f} %",
+                                texture->size, texture->size, texture->charts,
+                                100 * texture->covered));
+  }
   for (const SourceQuality& source : connectivity.quality->sources) {
     lines.push_back(
         fmt::format("  {}: {:.2g} / {:.2g} of the diagonal from it / to it, {} folds, {} new "

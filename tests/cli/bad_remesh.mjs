@@ -91,6 +91,11 @@ refused('no_manifold', 4, [
   points: [...mesh.points, ...mesh.points.map((p) => p.map((x) => 0.1 * x + 2))],
   faces: [...mesh.faces, ...mesh.faces.map((face) => face.map((v) => v + mesh.points.length))],
 })));
+// A texture needs colours to show; that is told before the work.
+refused('no_colours', 4, [
+  '#/connectivity/texture/of: error: "b" has one colour everywhere', '[connectivity.no-colours]',
+  'hint: name a source that has a texture, or leave the field "texture" out',
+], ball(), good, { texture: { of: 'b', size: 64 } });
 // New triangles of a resample are made on the first source, which must be a surface.
 const squeezed = (change) => ({ mesh: sphere(16, 12, change), landmarks: {} });
 const loose = { mesh: sphere(16, 12), landmarks: {} };

@@ -17,10 +17,9 @@ struct CarriedColours {
 };
 
 /// The colours of a source at points of its surface: COLOR_0 between the corners, times the
-/// base-colour texture there. What is finer than the points is lost.
+/// base-colour texture there and the material's factor, which is white then. What is finer than the
+/// points is lost. Where one factor says it all it stays, without COLOR_0.
 ///
-/// Primitives of different base colours are told apart by COLOR_0; the material's factor is then
-/// white.
 /// Warns of textures as make_appearance.
 CarriedColours carry_colours(const SourceMesh& source, const SourceSurface& surface,
                              const std::vector<SurfacePoint>& points, const Observer& observer);

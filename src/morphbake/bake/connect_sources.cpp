@@ -41,10 +41,20 @@ RemeshedSources remesh_sources(const Recipe& recipe, const std::vector<SourceMes
   const bool is_shared = recipe.connectivity.mode == ConnectivityMode::Resample;
   remeshed.surfaces = is_shared ? shared_surfaces(recipe, sources, observer)
                                 : own_surfaces(recipe, sources, observer);
+  std::optional<SurfaceColours> colours;  // now: what is wrong with them is told before the work
+  if (recipe.connectivity.texture) {
+    colours = texture_colours(recipe, sources, remeshed.surfaces, observer);
+  }
   remeshed.triangulation = new_triangulation(recipe, remeshed.surfaces, clock, observer);
+  if (colours) {
+    clock.start("texture");
+    const auto of = static_cast<std::size_t>(recipe.connectivity.texture->of);
+    remeshed.texture =
+        bake_texture(recipe, remeshed.surfaces[of], *colours, remeshed.triangulation, observer);
+  }
   clock.start("carry");
-  remeshed.files =
-      write_connectivity_files(sources, remeshed.surfaces, remeshed.triangulation, observer);
+  remeshed.files = write_connectivity_files(sources, remeshed.surfaces, remeshed.triangulation,
+                                            remeshed.texture, observer);
   return remeshed;
 }
 
@@ -54,6 +64,12 @@ std::vector<SourceRepairs> repairs_of(const RemeshedSources& remeshed) {
     repairs.push_back({surface.name, surface.repairs});
   }
   return repairs;
+}
+
+std::optional<TextureReport> texture_report(const RemeshedSources& remeshed) {
+  if (!remeshed.texture) return {};
+  const Atlas& atlas = remeshed.texture->atlas;
+  return TextureReport{atlas.size, atlas.chart_count, atlas.covered};
 }
 
 TriangulationQuality measured(const Recipe& recipe, const RemeshedSources& remeshed,
@@ -77,6 +93,7 @@ ConnectedSources connect_sources(const Recipe& recipe, std::vector<SourceMesh> s
   StageClock clock(observer);
   const RemeshedSources remeshed = remesh_sources(recipe, sources, clock, observer);
   connected.report.repairs = repairs_of(remeshed);
+  connected.report.texture = texture_report(remeshed);
   if (measuring == Measuring::On) {
     clock.start("measure");
     connected.report.quality = measured(recipe, remeshed, observer);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,18 +17,23 @@ namespace morphbake {
 struct RemeshedSources {
   std::vector<SourceSurface> surfaces;
   SharedTriangulation triangulation;
+  std::optional<BakedTexture> texture;  ///< when the recipe asks for one
   ConnectivityFiles files;
 };
 
 /// Makes the new connectivity that the recipe asks for.
 ///
 /// @param recipe  of a mode other than Shared
-/// @throws BakeError "connectivity....", "correspondence...."; Cancelled
+/// @throws BakeError "connectivity....", "correspondence...."; "gltf...." as surface_colours;
+///         Cancelled
 RemeshedSources remesh_sources(const Recipe& recipe, const std::vector<SourceMesh>& sources,
                                StageClock& clock, const Observer& observer);
 
 /// What was mended on each source.
 std::vector<SourceRepairs> repairs_of(const RemeshedSources& remeshed);
+
+/// What the texture is like, when there is one.
+std::optional<TextureReport> texture_report(const RemeshedSources& remeshed);
 
 /// Measures a new connectivity and tells what is worth a look as warnings.
 TriangulationQuality measured(const Recipe& recipe, const RemeshedSources& remeshed,

@@ -20,17 +20,20 @@ namespace {
 
 constexpr std::uint32_t kMapsVersion = 1;
 
+using Edges = std::set<std::pair<int, int>>;
+
 /// The vertices of the files.
 struct FileVertices {
-  std::vector<int> of_corner;  ///< 3 #F: corner 3 f + k -> vertex of the file
-  std::vector<int> vertex;     ///< vertex of the file -> vertex of the triangulation
+  std::vector<int> of_corner;   ///< 3 #F: corner 3 f + k -> vertex of the file
+  std::vector<int> vertex;      ///< vertex of the file -> vertex of the triangulation
+  std::vector<int> shading;     ///< 3 #F: corners of one number are shaded as one
+  Float2s texture_coordinates;  ///< of each vertex, or no rows without a texture
 };
 
 std::pair<int, int> edge_of(int a, int b) { return {std::min(a, b), std::max(a, b)}; }
 
-/// Joins the corners at a vertex over every edge that is not hard.
-std::vector<int> corner_fans(const Triangles& triangles,
-                             const std::set<std::pair<int, int>>& hard) {
+/// Joins the corners at a vertex over every edge that is not cut.
+std::vector<int> corner_fans(const Triangles& triangles, const Edges& cut) {
   std::vector<int> parent(static_cast<std::size_t>(triangles.size()));
   std::iota(parent.begin(), parent.end(), 0);
   const auto root = [&](int c) {
@@ -45,7 +48,7 @@ std::vector<int> corner_fans(const Triangles& triangles,
   for (int f = 0; f < triangles.rows(); ++f) {
     for (int k = 0; k < 3; ++k) {
       const int a = triangles(f, k), b = triangles(f, (k + 1) % 3);
-      if (hard.contains(edge_of(a, b))) continue;
+      if (cut.contains(edge_of(a, b))) continue;
       std::pair<int, int> corners{3 * f + k, 3 * f + (k + 1) % 3};
       if (a > b) std::swap(corners.first, corners.second);
       const auto [entry, is_new] = corners_at.try_emplace(edge_of(a, b), corners);
@@ -59,13 +62,31 @@ std::vector<int> corner_fans(const Triangles& triangles,
   return fans;
 }
 
-FileVertices split_vertices(const SharedTriangulation& triangulation) {
-  const Connectivity& k = triangulation.connectivity;
-  std::set<std::pair<int, int>> hard;
+Edges hard_edges(const SharedTriangulation& triangulation) {
+  Edges hard;
   for (const Eigen::Vector2i& edge : triangulation.hard_edges) {
     hard.insert(edge_of(edge(0), edge(1)));
   }
-  const std::vector<int> fans = corner_fans(k.triangles, hard);
+  return hard;
+}
+
+/// Edges between triangles of different charts.
+Edges seams(const Triangles& triangles, const std::vector<int>& chart) {
+  std::map<std::pair<int, int>, int> chart_at;
+  Edges found;
+  for (int f = 0; f < triangles.rows(); ++f) {
+    const int mine = chart[static_cast<std::size_t>(f)];
+    for (int k = 0; k < 3; ++k) {
+      const auto edge = edge_of(triangles(f, k), triangles(f, (k + 1) % 3));
+      const auto [entry, is_new] = chart_at.try_emplace(edge, mine);
+      if (!is_new && entry->second != mine) found.insert(edge);
+    }
+  }
+  return found;
+}
+
+/// Gives each fan of corners a vertex of the file; the first one at a vertex has its number.
+FileVertices vertices_of_fans(const Connectivity& k, const std::vector<int>& fans) {
   FileVertices vertices;
   vertices.vertex.resize(static_cast<std::size_t>(k.vertex_count));
   std::iota(vertices.vertex.begin(), vertices.vertex.end(), 0);
@@ -85,6 +106,43 @@ FileVertices split_vertices(const SharedTriangulation& triangulation) {
     vertices.of_corner.push_back(mine);
   }
   return vertices;
+}
+
+FileVertices split_vertices(const SharedTriangulation& triangulation,
+                            const std::optional<BakedTexture>& texture) {
+  const Connectivity& k = triangulation.connectivity;
+  Edges cut = hard_edges(triangulation);
+  const std::vector<int> shading = corner_fans(k.triangles, cut);
+  if (!texture) {
+    FileVertices vertices = vertices_of_fans(k, shading);
+    vertices.shading = vertices.of_corner;
+    return vertices;
+  }
+  const Atlas& atlas = texture->atlas;
+  cut.merge(seams(k.triangles, atlas.chart));
+  FileVertices vertices = vertices_of_fans(k, corner_fans(k.triangles, cut));
+  vertices.shading = shading;
+  vertices.texture_coordinates.resize(static_cast<Eigen::Index>(vertices.vertex.size()), 2);
+  for (std::size_t c = 0; c < vertices.of_corner.size(); ++c) {
+    vertices.texture_coordinates.row(vertices.of_corner[c]) =
+        atlas.places.row(atlas.of_corner[c]).cast<float>();
+  }
+  return vertices;
+}
+
+/// One a vertex of the file; those that only the texture splits are shaded as one.
+Normals file_vertex_normals(const Positions& geometry, const Triangles& triangles,
+                            const FileVertices& vertices) {
+  const Normals groups = corner_group_normals(geometry, triangles, vertices.shading,
+                                              static_cast<int>(vertices.shading.size()));
+  Normals normals(static_cast<Eigen::Index>(vertices.vertex.size()), 3);
+  for (std::size_t c = 0; c < vertices.of_corner.size(); ++c) {
+    normals.row(vertices.of_corner[c]) = groups.row(vertices.shading[c]);
+  }
+  for (auto normal : normals.rowwise()) {
+    if (normal.isZero(0)) normal << 0, 1, 0;  // no direction is right, but one must be written
+  }
+  return normals;
 }
 
 Eigen::Vector3d factor_of(const CarriedColours& look) {
@@ -120,12 +178,8 @@ std::string glb_of(const SourceMesh& source, CarriedColours look,
       Eigen::Map<const TriangleIndices>(vertices.of_corner.data(), triangles.rows(), 3);
   mesh.positions = geometry(vertices.vertex, Eigen::all).cast<float>();
   if (look.colours.rows() > 0) mesh.colours = look.colours(vertices.vertex, Eigen::all);
-  Normals normals = corner_group_normals(geometry, triangles, vertices.of_corner,
-                                         static_cast<int>(vertices.vertex.size()));
-  for (auto normal : normals.rowwise()) {
-    if (normal.isZero(0)) normal << 0, 1, 0;  // no direction is right, but one must be written
-  }
-  mesh.normals = normals.cast<float>();
+  mesh.normals = file_vertex_normals(geometry, triangles, vertices).cast<float>();
+  mesh.texture_coordinates = vertices.texture_coordinates;
   return write_mesh_glb(mesh, fmt::format("morphbake {}", version()));
 }
 
@@ -180,8 +234,9 @@ void append_map(const SourceMesh& source, const SourceSurface& surface,
 ConnectivityFiles write_connectivity_files(const std::vector<SourceMesh>& sources,
                                            const std::vector<SourceSurface>& surfaces,
                                            const SharedTriangulation& triangulation,
+                                           const std::optional<BakedTexture>& texture,
                                            const Observer& observer) {
-  const FileVertices vertices = split_vertices(triangulation);
+  const FileVertices vertices = split_vertices(triangulation, texture);
   ConnectivityFiles files;
   files.maps = "MORPHMAP";
   append_number(files.maps, kMapsVersion);
@@ -191,6 +246,10 @@ ConnectivityFiles write_connectivity_files(const std::vector<SourceMesh>& source
   std::vector<CarriedColours> looks;
   for (std::size_t s = 0; s < sources.size(); ++s) {
     stop_if_cancelled(observer);
+    if (texture) {
+      looks.push_back({texture->material, {}});
+      continue;
+    }
     looks.push_back(carry_colours(sources[s], surfaces[s], triangulation.on_source[s], observer));
   }
   bring_under_one_factor(looks, triangulation.connectivity.vertex_count);

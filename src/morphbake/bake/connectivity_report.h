@@ -18,13 +18,21 @@ struct SourceRepairs {
   SurfaceRepairs repairs;
 };
 
+/// The texture of a new connectivity.
+struct TextureReport {
+  int size = 0;        ///< texels of a side
+  int charts = 0;      ///< parts into which the surface is cut
+  double covered = 0;  ///< share of the texture that shows the surface
+};
+
 /// How the sources got one connectivity.
 struct ConnectivityReport {
   ConnectivityMode mode = ConnectivityMode::Shared;
   int vertices = 0;
   int triangles = 0;
-  std::vector<SourceRepairs> repairs;  ///< one a source; those that share triangles share it
-  std::vector<StageReport> steps;      ///< none when the sources shared one
+  std::vector<SourceRepairs> repairs;    ///< one a source; those that share triangles share it
+  std::vector<StageReport> steps;        ///< none when the sources shared one
+  std::optional<TextureReport> texture;  ///< when there is one
   std::optional<TriangulationQuality> quality;  ///< of new triangles, when it was measured
 };
 

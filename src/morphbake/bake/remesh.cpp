@@ -112,6 +112,7 @@ RemeshReport remesh(const Recipe& asked, const BakeOptions& options, const fs::p
   connectivity.vertices = remeshed.triangulation.connectivity.vertex_count;
   connectivity.triangles = static_cast<int>(remeshed.triangulation.connectivity.triangles.rows());
   connectivity.repairs = repairs_of(remeshed);
+  connectivity.texture = texture_report(remeshed);
   connectivity.quality = measured(recipe, remeshed, observer);
   PendingOutputs outputs;
   const std::size_t count = sources.size();

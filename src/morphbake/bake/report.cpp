@@ -142,6 +142,11 @@ Json to_json(const ConnectivityReport& report) {
                {"repairs", list_of(report.repairs)}};
   if (report.mode == ConnectivityMode::Shared) return json;
   json["steps"] = to_json(report.steps);
+  if (report.texture) {
+    json["texture"] = {{"size", report.texture->size},
+                       {"charts", report.texture->charts},
+                       {"covered", report.texture->covered}};
+  }
   if (!report.quality) return json;
   json["sources"] = list_of(report.quality->sources);
   json["distortion"] = list_of(report.quality->maps);

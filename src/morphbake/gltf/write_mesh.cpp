@@ -12,6 +12,9 @@ namespace {
 
 constexpr int kUnsignedShort = 5123;
 constexpr int kUnsignedInt = 5125;
+constexpr int kLinear = 9729;
+constexpr int kLinearMipmapLinear = 9987;
+constexpr int kClampToEdge = 33071;
 constexpr Eigen::Index kShortLimit = 65535;  // this index itself restarts primitives
 
 template <typename Number>
@@ -33,6 +36,15 @@ int append_indices(GlbDraft& draft, const PlainMesh& mesh) {
                                  {"type", "SCALAR"}});
 }
 
+int append_coordinates(GlbDraft& draft, const Float2s& rows) {
+  const auto bytes = static_cast<std::size_t>(rows.size()) * sizeof(float);
+  return append_accessor(
+      draft, {{"bufferView", append_view(draft, rows.data(), bytes, BufferUse::Vertices)},
+              {"componentType", kFloatComponent},
+              {"count", rows.rows()},
+              {"type", "VEC2"}});
+}
+
 Json json_of(const PlainMaterial& material) {
   const Eigen::Vector3d& colour = material.base_colour;
   Json json;
@@ -40,8 +52,25 @@ Json json_of(const PlainMaterial& material) {
   json["pbrMetallicRoughness"] = {{"baseColorFactor", {colour.x(), colour.y(), colour.z(), 1.0}},
                                   {"metallicFactor", material.metallic},
                                   {"roughnessFactor", material.roughness}};
+  if (!material.base_colour_image.empty()) {
+    json["pbrMetallicRoughness"]["baseColorTexture"] = {{"index", 0}};
+  }
   if (material.double_sided) json["doubleSided"] = true;
   return json;
+}
+
+/// Appends the material, and its picture as the one texture.
+void place_material(GlbDraft& draft, const PlainMaterial& material) {
+  draft.json["materials"] = Json::array({json_of(material)});
+  const std::string& png = material.base_colour_image;
+  if (png.empty()) return;
+  const int view = append_view(draft, png.data(), png.size(), BufferUse::Other);
+  draft.json["images"] = Json::array({{{"bufferView", view}, {"mimeType", "image/png"}}});
+  draft.json["samplers"] = Json::array({{{"magFilter", kLinear},
+                                         {"minFilter", kLinearMipmapLinear},
+                                         {"wrapS", kClampToEdge},
+                                         {"wrapT", kClampToEdge}}});
+  draft.json["textures"] = Json::array({{{"sampler", 0}, {"source", 0}}});
 }
 
 }  // namespace
@@ -54,6 +83,9 @@ std::string write_mesh_glb(const PlainMesh& mesh, const std::string& generator) 
   Json attributes = {{"POSITION", append_vectors(draft, mesh.positions)},
                      {"NORMAL", append_vectors(draft, mesh.normals)}};
   if (mesh.colours.rows() > 0) attributes["COLOR_0"] = append_vectors(draft, mesh.colours);
+  if (mesh.texture_coordinates.rows() > 0) {
+    attributes["TEXCOORD_0"] = append_coordinates(draft, mesh.texture_coordinates);
+  }
   Json primitive = {{"attributes", std::move(attributes)}};
   primitive["indices"] = append_indices(draft, mesh);
   if (mesh.material) primitive["material"] = 0;
@@ -63,7 +95,7 @@ std::string write_mesh_glb(const PlainMesh& mesh, const std::string& generator) 
                     {"nodes", Json::array({{{"name", mesh.name}, {"mesh", 0}}})}};
   draft.json["meshes"] =
       Json::array({{{"name", mesh.name}, {"primitives", Json::array({std::move(primitive)})}}});
-  if (mesh.material) draft.json["materials"] = Json::array({json_of(*mesh.material)});
+  if (mesh.material) place_material(draft, *mesh.material);
   return glb_bytes(draft);
 }
 

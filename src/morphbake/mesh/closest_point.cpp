@@ -52,8 +52,9 @@ std::vector<Tree::Point_and_primitive_id> starts_of(const std::vector<Triangle>&
   return starts;
 }
 
-/// Barycentric coordinates of a point of the triangle: the shares of area across from each corner.
-Eigen::Vector3d barycentric(const Mesh& mesh, int triangle, const Eigen::Vector3d& point) {
+}  // namespace
+
+Eigen::Vector3d coordinates_in(const Mesh& mesh, int triangle, const Eigen::Vector3d& point) {
   Eigen::Matrix3d spokes;  // from the point to the corners
   for (int k = 0; k < 3; ++k) {
     spokes.col(k) = mesh.positions.row(mesh.triangles(triangle, k)).transpose() - point;
@@ -64,8 +65,6 @@ Eigen::Vector3d barycentric(const Mesh& mesh, int triangle, const Eigen::Vector3
   // In a triangle without area every corner is as good.
   return areas.sum() > 0 ? Eigen::Vector3d(areas / areas.sum()) : Eigen::Vector3d(1, 0, 0);
 }
-
-}  // namespace
 
 Eigen::Vector3d position_of(const Mesh& mesh, const SurfacePoint& at) {
   Eigen::Vector3d position = Eigen::Vector3d::Zero();
@@ -88,7 +87,7 @@ std::vector<SurfacePoint> closest_points(const Mesh& mesh, const Positions& posi
     const auto [point, found] =
         tree.closest_point_and_primitive(Point(positions(i, 0), positions(i, 1), positions(i, 2)));
     const auto triangle = static_cast<int>(found - triangles.begin());
-    points.push_back({triangle, barycentric(mesh, triangle, {point.x(), point.y(), point.z()})});
+    points.push_back({triangle, coordinates_in(mesh, triangle, {point.x(), point.y(), point.z()})});
   }
   return points;
 }

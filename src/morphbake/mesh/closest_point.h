@@ -10,6 +10,9 @@ namespace morphbake {
 /// Where a point of a mesh lies in space.
 Eigen::Vector3d position_of(const Mesh& mesh, const SurfacePoint& at);
 
+/// Barycentric coordinates of a point of a triangle: the shares of area across from each corner.
+Eigen::Vector3d coordinates_in(const Mesh& mesh, int triangle, const Eigen::Vector3d& point);
+
 /// The point of the surface that is closest to `position`.
 ///
 /// @param mesh  with a triangle

@@ -21,6 +21,15 @@ void complain_about_idle_fields(Reading& reading, const Json& json) {
   }
 }
 
+TextureRequest texture_of(Reading& reading, const Json& json) {
+  TextureRequest texture;
+  texture.of =
+      look_up(reading, reading.recipe.sources, "source", json.at("of"), "/connectivity/texture/of");
+  if (json.contains("size")) texture.size = whole_number(json["size"]);
+  if (json.contains("padding")) texture.padding = whole_number(json["padding"]);
+  return texture;
+}
+
 }  // namespace
 
 void read_connectivity(Reading& reading) {
@@ -33,6 +42,7 @@ void read_connectivity(Reading& reading) {
   if (json->contains("max_vertices")) request.max_vertices = whole_number((*json)["max_vertices"]);
   request.target_edge_length = json->value("target_edge_length", request.target_edge_length);
   if (json->value("sizing", "") == "uniform") request.sizing = VertexSizing::Uniform;
+  if (json->contains("texture")) request.texture = texture_of(reading, (*json)["texture"]);
 }
 
 }  // namespace morphbake

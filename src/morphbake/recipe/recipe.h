@@ -45,6 +45,13 @@ enum class ConnectivityMode {
 /// Where a new connectivity has its vertices: see Sizing of connectivity/remesh_options.h.
 enum class VertexSizing { Curvature, Uniform };
 
+/// A texture for new triangles, painted from a source's colours.
+struct TextureRequest {
+  int of = 0;       ///< source
+  int size = 2048;  ///< as AtlasOptions
+  int padding = 4;  ///< likewise
+};
+
 /// The fields are those of RemeshOptions.
 struct ConnectivityRequest {
   ConnectivityMode mode = ConnectivityMode::Shared;
@@ -52,6 +59,7 @@ struct ConnectivityRequest {
   int max_vertices = 30000;
   double target_edge_length = 0.03;
   VertexSizing sizing = VertexSizing::Curvature;
+  std::optional<TextureRequest> texture;  ///< none: colours stand at vertices
 };
 
 /// What of the sources is blended, see docs/method.md.

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "morphbake/atlas/atlas.h"
 #include "morphbake/connectivity/remesh_options.h"
 #include "morphbake/json/explain.h"
 #include "morphbake/json/schema.h"
@@ -24,7 +25,7 @@ TEST(ReadRecipe, FillsInTheDefaultsOfTheSchema) {
   const Recipe recipe = folder.read(with_timeline(
       one_track,
       R"(, "regions": {"r": {"ball": {"on": "a", "at": "nose", "inner": 0, "outer": 1}}},
-          "connectivity": {"mode": "resample"}, "preview": {}, "states": {"s": {"mix": "a", "edits": [{"to": "b"}]}})"));
+          "connectivity": {"mode": "resample", "texture": {"of": "b"}}, "preview": {}, "states": {"s": {"mix": "a", "edits": [{"to": "b"}]}})"));
   const Json schema = shipped_schema("recipe.schema.json");
   const auto by_default = [&](const std::string& pointer) {
     const Json& node = schema.at(Json::json_pointer(pointer));
@@ -45,6 +46,13 @@ TEST(ReadRecipe, FillsInTheDefaultsOfTheSchema) {
   EXPECT_EQ(by_default(connectivity + "sizing"), "curvature");
   EXPECT_EQ(recipe.connectivity.sizing, VertexSizing::Curvature);
   EXPECT_EQ(options.sizing, Sizing::Curvature);
+  const AtlasOptions atlas;
+  ASSERT_TRUE(recipe.connectivity.texture);
+  EXPECT_EQ(recipe.connectivity.texture->of, 1);
+  EXPECT_EQ(recipe.connectivity.texture->size, atlas.size);
+  EXPECT_EQ(by_default(connectivity + "texture/properties/size"), atlas.size);
+  EXPECT_EQ(recipe.connectivity.texture->padding, atlas.padding);
+  EXPECT_EQ(by_default(connectivity + "texture/properties/padding"), atlas.padding);
   EXPECT_EQ(by_default("/definitions/timeline/properties/fps"), recipe.timeline.frames_per_second);
   EXPECT_EQ(by_default("/definitions/track/properties/amount"),
             recipe.timeline.tracks[0].edit.amount);
