@@ -16,7 +16,7 @@ struct PlainMaterial {
   double metallic = 1;                                    ///< 0 to 1
   double roughness = 1;                                   ///< 0 to 1
   bool double_sided = false;
-  std::string base_colour_image;  ///< bytes of a PNG, or "" for no texture
+  std::string base_colour_image = {};  ///< bytes of a PNG, or "" for no texture
 };
 
 /// A mesh of one primitive.
