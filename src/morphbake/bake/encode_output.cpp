@@ -40,6 +40,8 @@ QuantizedSteps steps_of(const SourceMesh& first, const Output& output, double di
 
 EncodedOutput encode_output(const SourceMesh& first, const Output& output, double diagonal,
                             MeshMorph morph) {
+  const bool reads_sparse = !output.profile || output.profile->sparse == SparseSupport::Any;
+  morph.may_be_sparse = output.encoding != Encoding::Float && reads_sparse;
   EncodedOutput encoded{
       write_morph_glb(first.file, morph, fmt::format("morphbake {}", version())), morph.node, {}};
   const std::vector<float> means = mean_weights(morph);
