@@ -88,6 +88,7 @@ void measure_projection(const fs::path& file) {
                          static_cast<int>(shared.connectivity.triangles.rows()),
                          {},
                          {{"project", seconds}},
+                         {},
                          measure_triangulation(surfaces, shared)};
   std::cout << report_to_json(report);
 }

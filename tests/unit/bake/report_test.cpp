@@ -14,7 +14,7 @@ ConnectivityReport full_connectivity() {
   quality.sources.push_back({"a", 0.001, 0.002, 1, 3, 3, 0, 20, 0.05, 0, SphereQuality{}});
   quality.maps.push_back({"b", 1.2, 1.1, 1.5, 2, 7});
   quality.regions.push_back({"b", 4, 0.01, 0.02, {1, 2, 3}, "tip", 0.1, true, {4, 5, 6}, 0.2});
-  return {ConnectivityMode::Remesh, 8, 12, {{"a", {1, 2, 3}}}, {{"sphere", 0.5}}, quality};
+  return {ConnectivityMode::Remesh, 8, 12, {{"a", {1, 2, 3}}}, {{"sphere", 0.5}}, TextureReport{1024, 3, 0.5}, quality};
 }
 
 SharedTriangulation of_vertices(int count, bool is_full = false) {
@@ -37,6 +37,7 @@ BakeReport full_report() {
   report.connectivity = full_connectivity();
   OutputReport output;
   output.file = "out/nose.glb";
+  output.kind = "tracks";
   output.targets = {"nose"};
   output.normals = {12, 3, 0.5, 7};
   output.previews = {"out/nose.gif"};
@@ -92,7 +93,7 @@ TEST(Report, OfRemeshingFitsItsSchema) {
 
 TEST(Report, OfASharedConnectivityTellsItsSizeAndRepairsOnly) {
   BakeReport report = full_report();
-  report.connectivity = {ConnectivityMode::Shared, 8, 12, {}, {}, {}};
+  report.connectivity = {ConnectivityMode::Shared, 8, 12, {}, {}, {}, {}};
   const Json json = parse_json(report_to_json(report), "report");
   EXPECT_EQ(
       json["connectivity"],
