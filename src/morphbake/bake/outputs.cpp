@@ -36,9 +36,7 @@ void warn_of_targets(const SolvedRecipe& solved, std::size_t index, std::size_t 
                            location_in(solved.recipe, fmt::format("/outputs/{}/targets", index)),
                            fmt::format("{} morph targets; three.js and Babylon.js read at most {}",
                                        count, kEngineTargetLimit),
-                           solved.timeline.shapes.base.rows() > 0
-                               ? "use \"targets\": \"tracks\", a lower fps or a shorter timeline"
-                               : "use a lower fps or a shorter timeline"});
+                           "\"targets\": \"keyframes\" or \"basis\" needs fewer"});
 }
 
 /// Posed vertices must not be posed again.

@@ -14,7 +14,8 @@ ConnectivityReport full_connectivity() {
   quality.sources.push_back({"a", 0.001, 0.002, 1, 3, 3, 0, 20, 0.05, 0, SphereQuality{}});
   quality.maps.push_back({"b", 1.2, 1.1, 1.5, 2, 7});
   quality.regions.push_back({"b", 4, 0.01, 0.02, {1, 2, 3}, "tip", 0.1, true, {4, 5, 6}, 0.2});
-  return {ConnectivityMode::Remesh, 8, 12, {{"a", {1, 2, 3}}}, {{"sphere", 0.5}}, TextureReport{1024, 3, 0.5}, quality};
+  return {ConnectivityMode::Remesh,    8,      12, {{"a", {1, 2, 3}}}, {{"sphere", 0.5}},
+          TextureReport{1024, 3, 0.5}, quality};
 }
 
 SharedTriangulation of_vertices(int count, bool is_full = false) {
