@@ -103,6 +103,29 @@ void bound_to_unit(const Eigen::MatrixXd& gram, const Eigen::VectorXd& sums, Eig
   }
 }
 
+/// Brings what is fitted of rest into [0, 1], and fits the targets of such numbers anew.
+///
+/// @param first    rest before it was fitted
+/// @param moments  against `first`
+void bound_rest(const Positions& first, const Moments& moments, FittedVectors& fitted) {
+  const auto count = static_cast<Eigen::Index>(fitted.targets.size());
+  const Eigen::MatrixXd inverse =
+      moments.gram.topLeftCorner(count, count).completeOrthogonalDecomposition().pseudoInverse();
+  const auto weights = moments.gram.col(count).head(count);  // their sums
+  for (Eigen::Index r = 0; r < first.rows(); ++r) {
+    for (Eigen::Index axis = 0; axis < 3; ++axis) {
+      double& rest = fitted.rest(r, axis);
+      if (rest >= 0 && rest <= 1) continue;
+      rest = std::clamp(rest, 0.0, 1.0);
+      const Eigen::VectorXd sums = moments.sums.col(3 * r + axis).head(count);
+      const Eigen::VectorXd x = inverse * (sums + (first(r, axis) - rest) * weights);
+      for (Eigen::Index k = 0; k < count; ++k) {
+        fitted.targets[static_cast<std::size_t>(k)](r, axis) = x(k);
+      }
+    }
+  }
+}
+
 /// Whether few enough vectors have targets beyond [-1, 1] that bounding those costs little.
 bool exceed_rarely(const std::vector<Positions>& targets) {
   constexpr double kFew = 0.01;
@@ -148,10 +171,13 @@ void bound_targets(const Normals& first, const Eigen::VectorXd& scales, const Mo
 
 }  // namespace
 
-FittedVectors fit_targets(const MorphBasis& basis, const Positions& rest,
+FittedVectors fit_colours(const MorphBasis& basis, const Positions& rest,
                           const std::vector<VectorMotion>& motions) {
   if (basis.targets.empty()) return {rest, {}};
-  return solved(basis, rest, moments_of(basis, rest, motions));
+  const Moments moments = moments_of(basis, rest, motions);
+  FittedVectors fitted = solved(basis, rest, moments);
+  if (basis.kind == TargetKind::Basis) bound_rest(rest, moments, fitted);
+  return fitted;
 }
 
 FittedVectors fit_directions(const MorphBasis& basis, const Normals& rest,

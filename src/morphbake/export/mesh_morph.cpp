@@ -52,14 +52,14 @@ std::optional<FittedVectors> fit_tangents(const SourceMesh& first, const Morphab
 }
 
 /// Nothing where colours do not change.
-std::optional<FittedVectors> fit_colours(const MorphBasis& basis,
-                                         const std::vector<ReferenceMotion>& motions) {
+std::optional<FittedVectors> changing_colours(const MorphBasis& basis,
+                                              const std::vector<ReferenceMotion>& motions) {
   if (!motions.front().colours_at) return {};
   std::vector<VectorMotion> shown;
   for (const ReferenceMotion& motion : motions) {
     shown.push_back({motion.frame_times, motion.colours_at});
   }
-  return fit_targets(basis, motions.front().first_colours, shown);
+  return fit_colours(basis, motions.front().first_colours, shown);
 }
 
 /// Rows of `of_vertex` for the render vertices begin, begin + 1, ...; zero for those that no
@@ -190,7 +190,7 @@ MeshMorph make_mesh_morph(const SourceMesh& first, const MorphableMesh& mesh,
   const RenderTangents tangents = find_tangents(first, mesh, groups);
   const std::optional<FittedVectors> directions =
       fit_tangents(first, mesh, basis, groups, tangents, motions);
-  const std::optional<FittedVectors> colours = fit_colours(basis, motions);
+  const std::optional<FittedVectors> colours = changing_colours(basis, motions);
   add_rest(first, mesh, groups, basis.base, normals.rest, morph);
   if (directions) add_rest_tangents(tangents, directions->rest, morph);
   if (colours) add_rest_colours(colours->rest, morph);
