@@ -23,8 +23,10 @@ struct VectorMotion {
 /// The least-squares fit of what changes with the shape, but not linearly, to the basis' weights
 /// over all clips.
 ///
-/// @param rest     at the base, within [0, 1]: stands as it is, but where the base is no frame it is
-///                 fitted as well, since no moment shows it, and stays within [0, 1] as glTF wants it
+/// @param rest     at the base, within [0, 1]: stands as it is, but where the base is no frame it
+/// is
+///                 fitted as well, since no moment shows it, and stays within [0, 1] as glTF wants
+///                 it
 /// @param motions  one a clip of the basis
 FittedVectors fit_colours(const MorphBasis& basis, const Positions& rest,
                           const std::vector<VectorMotion>& motions);
