@@ -36,6 +36,13 @@ recipe finest '{"targets": "frames", "max_error": 1e-9}'
 bake 2 finest
 stderr_has "#/outputs/0/max_error"
 
+rm -rf out
+recipe integers '{"targets": "frames", "max_error": 0.000001, "encoding": "quantized"}'
+bake 5 integers
+stderr_has "[export.position-error]"
+stderr_has '"encoding": "sparse" writes floats'
+no_file_in out
+
 # A profile: more targets than its client reads are an error with what would fit, which does.
 recipe few '{"targets": "frames", "profile": "spec-min"}'
 bake 5 few
