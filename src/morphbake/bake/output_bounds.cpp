@@ -24,6 +24,15 @@ bool keeps_normals(const Output& output, const NormalReport& normals) {
          normals.percentile_99 <= bounds.percentile_99.value_or(180);
 }
 
+const char* hint_for(const Output& output) {
+  const bool is_float = output.encoding == Encoding::Float || output.encoding == Encoding::Sparse;
+  return is_float
+             ? "\"targets\": \"frames\" is as exact as float32; a larger bound, or \"unmet\": "
+               "\"warning\", accepts it"
+             : "\"encoding\": \"sparse\" writes floats, which are finer than integers; a larger "
+               "bound, or \"unmet\": \"warning\", accepts it";
+}
+
 void check_positions(const Recipe& recipe, std::size_t index, const OutputReport& written,
                      const Observer& observer) {
   const Output& output = recipe.outputs[index];
@@ -34,8 +43,7 @@ void check_positions(const Recipe& recipe, std::size_t index, const OutputReport
       fmt::format("positions are up to {:.3g} of the diagonal off, more than the {:.3g} "
                   "that are allowed; worst at vertex {} and {:.4g} s",
                   written.max_error, output.max_error, written.worst_vertex, written.worst_time),
-      "\"targets\": \"frames\" is as exact as float32; a larger bound, or \"unmet\": "
-      "\"warning\", accepts it"};
+      hint_for(output)};
   tell_unmet(output, std::move(problem), observer);
 }
 
