@@ -3,7 +3,7 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
-#include <numeric>
+#include <utility>
 
 namespace morphbake {
 namespace {
@@ -11,14 +11,23 @@ namespace {
 constexpr double kBlockBytes = 8e6;
 constexpr std::size_t kPartsAtOnce = 8;   // in memory, whatever the number of threads
 constexpr std::size_t kStraysAPart = 16;  // more would be neighbours of these
-constexpr Eigen::Index kSpreadCount = 1000;
+constexpr double kSeenBytes = 64e6;       // of vertices that are looked at by themselves
+constexpr double kMostSeen = 1000;
+
+double bytes_a_vertex(const FrameSource& frames) {
+  return 3 * sizeof(double) * static_cast<double>(frames.times.size());
+}
+
+/// How many vertices to look at by themselves: fewer of long motions.
+Eigen::Index count_to_see(const FrameSource& frames) {
+  return static_cast<Eigen::Index>(std::clamp(kSeenBytes / bytes_a_vertex(frames), 1.0, kMostSeen));
+}
 
 }  // namespace
 
 std::vector<VertexRange> block_ranges(const FrameSource& frames) {
-  const double bytes_a_vertex = 3 * sizeof(double) * static_cast<double>(frames.times.size());
   const auto length =
-      static_cast<Eigen::Index>(std::clamp(kBlockBytes / bytes_a_vertex, 16.0, 8192.0));
+      static_cast<Eigen::Index>(std::clamp(kBlockBytes / bytes_a_vertex(frames), 16.0, 8192.0));
   std::vector<VertexRange> ranges;
   for (Eigen::Index first = 0; first < frames.vertex_count; first += length) {
     ranges.push_back({first, std::min(length, frames.vertex_count - first)});
@@ -66,30 +75,31 @@ void for_each_block(const FrameSource& frames, const Observer& observer,
 std::vector<Eigen::Index> strays(const FrameSource& frames, const Deviation& deviation,
                                  double tolerance, const Observer& observer) {
   const std::vector<VertexRange> ranges = block_ranges(frames);
-  std::vector<std::vector<Eigen::Index>> of_part(ranges.size());
-  std::vector<Eigen::Index> all;
+  using Stray =
+      std::pair<double, Eigen::Index>;  // its distance below 0, so that the worst is least
+  std::vector<std::vector<Stray>> of_part(ranges.size());
+  std::vector<Stray> all;
   for_each_block(
       frames, observer,
       [&](std::size_t part, const FrameBlock& block) {
         const Eigen::VectorXd distances = deviation(block);
-        std::vector<Eigen::Index>& worst = of_part[part];
+        std::vector<Stray>& worst = of_part[part];
         for (Eigen::Index v = 0; v < distances.size(); ++v) {
-          if (distances(v) > tolerance) worst.push_back(v);
+          if (distances(v) > tolerance) worst.emplace_back(-distances(v), ranges[part].first + v);
         }
-        const auto farther = [&](Eigen::Index a, Eigen::Index b) {
-          return distances(a) != distances(b) ? distances(a) > distances(b) : a < b;
-        };
-        std::sort(worst.begin(), worst.end(), farther);
+        std::sort(worst.begin(), worst.end());
         worst.resize(std::min(worst.size(), kStraysAPart));
       },
-      [&](std::size_t part) {
-        for (const Eigen::Index v : of_part[part]) all.push_back(ranges[part].first + v);
-      });
-  return all;
+      [&](std::size_t part) { all.insert(all.end(), of_part[part].begin(), of_part[part].end()); });
+  std::sort(all.begin(), all.end());
+  all.resize(std::min(all.size(), static_cast<std::size_t>(count_to_see(frames))));
+  std::vector<Eigen::Index> vertices;
+  for (const auto& [distance, vertex] : all) vertices.push_back(vertex);
+  return vertices;
 }
 
 std::vector<Eigen::Index> spread_vertices(const FrameSource& frames) {
-  const Eigen::Index step = std::max<Eigen::Index>(1, frames.vertex_count / kSpreadCount);
+  const Eigen::Index step = std::max<Eigen::Index>(1, frames.vertex_count / count_to_see(frames));
   std::vector<Eigen::Index> vertices;
   for (Eigen::Index v = 0; v < frames.vertex_count; v += step) vertices.push_back(v);
   return vertices;

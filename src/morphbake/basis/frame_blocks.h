@@ -37,7 +37,7 @@ void for_each_block(const FrameSource& frames, const Observer& observer,
 /// ought to be.
 using Deviation = std::function<Eigen::VectorXd(const FrameBlock& block)>;
 
-/// Vertices that are farther away than `tolerance`: of each part the worst few.
+/// Vertices that are farther away than `tolerance`: the worst few of the worst few of each part.
 std::vector<Eigen::Index> strays(const FrameSource& frames, const Deviation& deviation,
                                  double tolerance, const Observer& observer);
 

@@ -63,7 +63,6 @@ std::size_t farthest(const FrameBlock& block, const std::vector<double>& times, 
   }
   while (bad - good > 1) {
     const std::size_t to = good + (bad - good) / 2;
-    if (to > last) break;
     (is_straight(block, times, {from, to}, tolerance) ? good : bad) = to;
   }
   return good;
