@@ -3,7 +3,9 @@
 import { readFileSync, writeFileSync } from 'node:fs';
 import path from 'node:path';
 import { parseGlb, readAccessor } from './reference/glb.mjs';
+import { sampleAt } from './reference/scene.mjs';
 import { makeShape } from './shapes/make_shapes.mjs';
+import { packChunks } from './shapes/write_glb.mjs';
 import { bake, readArguments, startChecks, withFolder } from './support.mjs';
 
 const { morphbake } = readArguments('morphbake');
@@ -18,29 +20,19 @@ function paint(folder, name) {
   const { json, bin } = parseGlb(bytes);
   json.materials = [{ pbrMetallicRoughness: { baseColorFactor: [...PAINTS[name], 1], metallicFactor: 0 } }];
   for (const primitive of json.meshes[0].primitives) primitive.material = 0;
-  const text = Buffer.from(JSON.stringify(json));
-  const padded = Buffer.concat([text, Buffer.alloc((4 - text.length % 4) % 4, 0x20)]);
-  const header = Buffer.alloc(20);
-  [0x46546c67, 2, 28 + padded.length + bin.length, padded.length, 0x4e4f534a].forEach((x, i) => header.writeUInt32LE(x, 4 * i));
-  const chunk = Buffer.alloc(8);
-  [bin.length, 0x004e4942].forEach((x, i) => chunk.writeUInt32LE(x, 4 * i));
-  writeFileSync(file, Buffer.concat([header, padded, chunk, bin]));
+  writeFileSync(file, packChunks(json, bin));
 }
 
 /** Colours of all vertices at a time, times the material's factor. */
 function coloursAt(glb, time) {
   const [{ samplers, channels }] = glb.json.animations;
   const sampler = samplers[channels[0].sampler];
-  const times = readAccessor(glb, sampler.input), values = readAccessor(glb, sampler.output);
   const [{ attributes, targets, material }] = glb.json.meshes[0].primitives;
-  const count = targets.length;
-  const next = Math.max(1, times.findIndex((t) => t >= time - 1e-6));
-  const share = (time - times[next - 1]) / (times[next] - times[next - 1]);
+  const weights = sampleAt(glb, sampler, 'weights', time);
   const factor = glb.json.materials[material].pbrMetallicRoughness.baseColorFactor;
   const rows = Float64Array.from(readAccessor(glb, attributes.COLOR_0));
   targets.forEach((target, k) => {
-    const weight = (1 - share) * values[(next - 1) * count + k] + share * values[next * count + k];
-    readAccessor(glb, target.COLOR_0).forEach((x, i) => { rows[i] += weight * x; });
+    readAccessor(glb, target.COLOR_0).forEach((x, i) => { rows[i] += weights[k] * x; });
   });
   return rows.map((x, i) => x * factor[i % 3]);
 }

@@ -5,25 +5,20 @@ import { existsSync, readFileSync, writeFileSync } from 'node:fs';
 import path from 'node:path';
 import { parseArgs } from 'node:util';
 import { findMeshNode, parseGlb, readAccessor } from './reference/glb.mjs';
+import { sampleAt } from './reference/scene.mjs';
 import { bake, placeRecipe, startChecks, withFolder } from './support.mjs';
 
 const { values: { morphbake, meshes } } = parseArgs({ options: { morphbake: { type: 'string' }, meshes: { type: 'string' } } });
 const checks = startChecks();
 const ROUNDING = 2e-7; // of the diagonal: float32 positions and their sums
 
-/** The weights animation, by LINEAR interpolation. */
+/** The weights animation, which is LINEAR. */
 function weightsOf(glb) {
   const { channels, samplers } = glb.json.animations[0];
   const sampler = samplers[channels.find(({ target }) => target.path === 'weights').sampler];
   checks.check(sampler.interpolation === 'LINEAR', `weights are ${sampler.interpolation}`);
   const times = readAccessor(glb, sampler.input), values = readAccessor(glb, sampler.output);
-  const count = values.length / times.length;
-  const at = (time) => {
-    const next = Math.min(Math.max(times.findIndex((t) => t >= time - 1e-6), 1), times.length - 1);
-    const share = Math.min(Math.max((time - times[next - 1]) / (times[next] - times[next - 1]), 0), 1);
-    return Array.from({ length: count }, (_, k) => (1 - share) * values[(next - 1) * count + k] + share * values[next * count + k]);
-  };
-  return { times, values, count, at };
+  return { times, values, at: (time) => sampleAt(glb, sampler, 'weights', time) };
 }
 
 /** A file's motion: rows of POSITION or NORMAL of its only primitive at a time. */

@@ -6,7 +6,7 @@ import { existsSync, statSync, writeFileSync } from 'node:fs';
 import path from 'node:path';
 import { readAccessor } from './reference/glb.mjs';
 import { openPlain } from './reference/plain.mjs';
-import { cornersOf } from './reference/scene.mjs';
+import { cornersOf, sampleAt } from './reference/scene.mjs';
 import { bake, modulesFolder, readArguments, skip, startChecks, withFolder } from './support.mjs';
 
 const { morphbake, meshes } = readArguments('morphbake', 'meshes');
@@ -35,18 +35,13 @@ async function openMorph(file) {
   const normals = readAccessor(plain, primitive.attributes.NORMAL);
   const turns = primitive.targets.map(({ NORMAL }) => readAccessor(plain, NORMAL));
   const { samplers: [sampler] } = json.animations[0];
-  const times = readAccessor(plain, sampler.input), values = readAccessor(plain, sampler.output);
-  const weightsAt = (time) => {
-    const next = Math.min(Math.max(times.findIndex((t) => t >= time - 1e-6), 1), times.length - 1);
-    const share = Math.min(Math.max((time - times[next - 1]) / (times[next] - times[next - 1]), 0), 1);
-    return moves.map((_, k) => (1 - share) * values[(next - 1) * moves.length + k] + share * values[next * moves.length + k]);
-  };
+  const times = readAccessor(plain, sampler.input);
   const sum = (rest, deltas, weights) => {
     const rows = Float64Array.from(rest);
     weights.forEach((weight, k) => { if (weight !== 0) for (let i = 0; i < rows.length; i++) rows[i] += weight * deltas[k][i]; });
     return rows;
   };
-  const at = (time) => { const weights = weightsAt(time); return { positions: sum(base, moves, weights), normals: sum(normals, turns, weights) }; };
+  const at = (time) => { const weights = sampleAt(plain, sampler, 'weights', time); return { positions: sum(base, moves, weights), normals: sum(normals, turns, weights) }; };
   return { at, times, corners: cornersOf(plain, primitive) };
 }
 

@@ -7,17 +7,11 @@ import path from 'node:path';
 import { png } from '../cli/bad_gltf/pictures.mjs';
 import { parseGlb, readAccessor } from './reference/glb.mjs';
 import { makeShape } from './shapes/make_shapes.mjs';
+import { packChunks } from './shapes/write_glb.mjs';
 import { bake, readArguments, startChecks, withFolder } from './support.mjs';
 
 const { morphbake } = readArguments('morphbake');
 const checks = startChecks();
-
-function packGlb(json, bin) {
-  const text = Buffer.from(JSON.stringify(json));
-  const padded = Buffer.concat([text, Buffer.alloc((4 - text.length % 4) % 4, 0x20)]);
-  const words = (...numbers) => { const bytes = Buffer.alloc(4 * numbers.length); numbers.forEach((x, i) => bytes.writeUInt32LE(x, 4 * i)); return bytes; };
-  return Buffer.concat([words(0x46546c67, 2, 28 + padded.length + bin.length, padded.length, 0x4e4f534a), padded, words(bin.length, 0x004e4942), bin]);
-}
 
 /** The drum with tangents; only its first primitive has a normal map. @return tangents of the first primitive */
 function addTangents(folder) {
@@ -52,7 +46,7 @@ function addTangents(folder) {
   json.materials = [{ name: 'mapped', normalTexture: { index: 0 } }, { name: 'plain' }];
   json.meshes[0].primitives.forEach((primitive, p) => { primitive.material = p; });
   json.buffers[0].byteLength = length;
-  writeFileSync(file, packGlb(json, Buffer.concat(parts)));
+  writeFileSync(file, packChunks(json, Buffer.concat(parts)));
   return tangents[0];
 }
 

@@ -96,7 +96,8 @@ function poseNodes(plain, { animation, time, weights }) {
   return nodes;
 }
 
-function sampleAt(plain, { input, output, interpolation = 'LINEAR' }, path, time) {
+/** What a sampler says at a time. @param path  of the channel: rotations are turned along arcs */
+export function sampleAt(plain, { input, output, interpolation = 'LINEAR' }, path, time) {
   const times = readAccessor(plain, input);
   const values = readAccessor(plain, output);
   const isCubic = interpolation === 'CUBICSPLINE';

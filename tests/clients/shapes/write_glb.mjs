@@ -27,7 +27,7 @@ export function packGlb(json, accessors) {
     offset += chunks.at(-1).length;
   }
   complete.buffers = [{ byteLength: offset }];
-  return joinChunks(pad(Buffer.from(JSON.stringify(complete)), 0x20), Buffer.concat(chunks));
+  return packChunks(complete, Buffer.concat(chunks));
 }
 
 function describeAccessor({ values, width, componentType }, bufferView) {
@@ -39,6 +39,9 @@ function describeAccessor({ values, width, componentType }, bufferView) {
 }
 
 const pad = (bytes, filler) => Buffer.concat([bytes, Buffer.alloc(-bytes.length & 3, filler)]);
+
+/** The file's bytes. @param binary  its buffer, a multiple of four bytes long */
+export const packChunks = (json, binary) => joinChunks(pad(Buffer.from(JSON.stringify(json)), 0x20), binary);
 
 function joinChunks(json, bin) {
   const words = (...values) => Buffer.from(Uint32Array.from(values).buffer);
