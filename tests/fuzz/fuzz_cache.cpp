@@ -1,5 +1,5 @@
-// Fuzz target: an entry of the cache, as bytes of a file, and as what stands behind a right hash: then
-// every stage tries to make something of it.
+// Fuzz target: an entry of the cache, as bytes of a file, and as what stands behind a right hash:
+// then every stage tries to make something of it.
 
 #include <cstdint>
 #include <cstdlib>

@@ -17,8 +17,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const std::vector<Landmark> landmarks =
         read_landmarks(folder.write("a.landmarks.json", text), "a.landmarks.json");
     const std::string written = landmarks_to_json(landmarks, folder.path / "b.json", {});
-    const std::vector<Landmark> again =
-        read_landmarks(folder.write("b.json", written), "b.json");
+    const std::vector<Landmark> again = read_landmarks(folder.write("b.json", written), "b.json");
     if (landmarks_to_json(again, folder.path / "b.json", {}) != written) std::abort();
   } catch (const BakeError&) {
     // What is wrong was told.
