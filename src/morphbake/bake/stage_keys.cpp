@@ -177,15 +177,26 @@ StageKey describe_output(const Described& described, std::size_t index, const St
                                    {"output", std::move(output)}});
 }
 
-/// Of pictures: what they show is an output's, or the recipe's.
-StageKey describe_pictures(const Described& described, std::string name, const StageKey& shown,
-                           const BakeOptions& options) {
+/// @param shown  the output that they show
+StageKey describe_preview(const Described& described, const StageKey& shown,
+                          const BakeOptions& options) {
   const Json all_options = parse_json(options_to_json(options), "options");
-  Json description = {{"stage", "preview"},
-                      {"of", shown.key},
-                      {"preview", or_null(described.document, "preview")},
-                      {"turntable", all_options["turntable"]}};
-  return key_of(std::move(name), description);
+  Json preview = or_null(described.document, "preview");
+  preview.erase("maps");
+  return key_of("preview of " + shown.name.substr(std::string_view("output ").size()),
+                {{"stage", "preview"},
+                 {"of", shown.key},
+                 {"preview", std::move(preview)},
+                 {"turntable", all_options["turntable"]}});
+}
+
+StageKey describe_maps(const Described& described, const StageKey& solve,
+                       const BakeOptions& options) {
+  const Json all_options = parse_json(options_to_json(options), "options");
+  return key_of("maps", {{"stage", "maps"},
+                         {"of", solve.key},
+                         {"maps", described.document.at("preview").at("maps")},
+                         {"turntable", all_options["turntable"]}});
 }
 
 }  // namespace
@@ -211,12 +222,9 @@ BakeKeys bake_keys(const Recipe& recipe, const BakeOptions& options, InputFiles&
   }
   if (!recipe.preview) return keys;
   for (const StageKey& output : keys.outputs) {
-    keys.previews.push_back(
-        describe_pictures(described, "preview of " + output.name.substr(7), output, options));
+    keys.previews.push_back(describe_preview(described, output, options));
   }
-  if (!recipe.preview->maps.empty()) {
-    keys.maps = describe_pictures(described, "maps", keys.solve, options);
-  }
+  if (!recipe.preview->maps.empty()) keys.maps = describe_maps(described, keys.solve, options);
   return keys;
 }
 
