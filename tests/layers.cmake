@@ -23,7 +23,8 @@ set(OWNERS
     "^meshoptimizer\\.h$=gltf export"
     "^draco/=gltf"
     "^CLI/=cli"
-    "^(fcntl|unistd|signal|sys/.*)(\\.h)?$=files cli")
+    "^xxhash\\.h$=cache"
+    "^(fcntl|link|unistd|signal|sys/.*)(\\.h)?$=files cache cli")
 
 set(breaches "")
 function(breach file text)

@@ -49,8 +49,12 @@ void sync_to_disk(const fs::path& path, const fs::path& shown) {
   if (result != 0) fail_to_write(shown, error);
 }
 
+/// Whether a file's bytes are on the disk before it gets its name.
+enum class Sync { Yes, No };
+
 /// @param shown  what messages call the file
-void write_new_file(const fs::path& path, std::string_view bytes, const fs::path& shown) {
+void write_new_file(const fs::path& path, std::string_view bytes, const fs::path& shown,
+                    Sync sync) {
   const int descriptor = ::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
   if (descriptor < 0) fail_to_write(shown, errno);
   std::size_t done = 0;
@@ -64,7 +68,7 @@ void write_new_file(const fs::path& path, std::string_view bytes, const fs::path
     }
     done += static_cast<std::size_t>(count);
   }
-  const bool synced = ::fsync(descriptor) == 0;
+  const bool synced = sync == Sync::No || ::fsync(descriptor) == 0;
   const int error = errno;
   if (::close(descriptor) != 0 || !synced) fail_to_write(shown, error);
 }
@@ -128,6 +132,20 @@ fs::path inside_folder(const fs::path& folder, std::string_view uri) {
   return root_end == root.end() ? target : fs::path();
 }
 
+void replace_unsynced(const fs::path& path, std::string_view bytes) {
+  std::vector<fs::path> made;
+  make_folders(path.parent_path(), made);
+  const fs::path temporary = temporary_beside(path);
+  try {
+    write_new_file(temporary, bytes, path, Sync::No);
+    if (std::rename(temporary.c_str(), path.c_str()) != 0) fail_to_write(path, errno);
+  } catch (const BakeError&) {
+    std::error_code ignored;
+    fs::remove(temporary, ignored);
+    throw;
+  }
+}
+
 PendingOutputs::~PendingOutputs() {
   std::error_code ignored;
   for (const Entry& entry : entries_) fs::remove(entry.temporary, ignored);
@@ -151,7 +169,7 @@ fs::path PendingOutputs::stage_external(const fs::path& path) {
 
 fs::path PendingOutputs::stage(const fs::path& path, std::string_view bytes) {
   fs::path temporary = stage_external(path);
-  write_new_file(temporary, bytes, path);
+  write_new_file(temporary, bytes, path, Sync::Yes);
   return temporary;
 }
 

@@ -102,6 +102,7 @@ Recipe read_recipe(const std::filesystem::path& file, const std::vector<RecipeCh
   Reading reading{document, std::filesystem::absolute(file).parent_path(), {}, {}, {}};
   reading.recipe.file = file;
   reading.recipe.parts = parts;
+  reading.recipe.document = document.dump(-1, ' ', false, Json::error_handler_t::replace);
   read_parts(reading);
   add_unexplained(problems, reading.problems);
   throw_problems(std::move(problems));

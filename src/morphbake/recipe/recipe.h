@@ -234,6 +234,7 @@ struct Recipe {
   std::vector<Output> outputs;
   std::optional<PreviewRequest> preview;
   std::string options = "{}";  ///< JSON text of the recipe's "options", see bake/options.h
+  std::string document;        ///< JSON text of all of it, with what it includes
 };
 
 /// Who wrote what stands at `pointer`: of the longest part there, the last.
