@@ -32,14 +32,14 @@ FileState state_of(const Json& json) {
 
 Json to_json(const BakeSummary& summary) {
   Json stages = Json::array();
-  for (const StageSeconds& stage : summary.stages) {
-    stages.push_back(
-        {{"name", stage.name}, {"seconds", stage.seconds}, {"cached", stage.is_cached}});
+  for (const StageReport& stage : summary.stages) {
+    stages.push_back({{"name", stage.name}, {"seconds", stage.seconds}});
   }
   return {{"vertices", summary.vertices},   {"triangles", summary.triangles},
           {"frames", summary.frames},       {"targets", summary.targets},
           {"bytes", summary.bytes},         {"max_error", summary.max_error},
-          {"normal_error", summary.normal_error}, {"stages", std::move(stages)}};
+          {"normal_error", summary.normal_error}, {"stages", std::move(stages)},
+          {"cached", summary.cached}};
 }
 
 BakeSummary summary_of(const Json& json) {
@@ -52,9 +52,10 @@ BakeSummary summary_of(const Json& json) {
   json.at("max_error").get_to(summary.max_error);
   json.at("normal_error").get_to(summary.normal_error);
   for (const Json& stage : json.at("stages")) {
-    summary.stages.push_back({stage.at("name").get<std::string>(), stage.at("seconds").get<double>(),
-                              stage.at("cached").get<bool>()});
+    summary.stages.push_back(
+        {stage.at("name").get<std::string>(), stage.at("seconds").get<double>()});
   }
+  json.at("cached").get_to(summary.cached);
   return summary;
 }
 
@@ -112,9 +113,10 @@ BatchRecord record_of(const Json& json) {
 }  // namespace
 
 std::string record_to_line(const BatchRecord& record) {
-  Json json = {{"name", record.name}, {"recipe", record.recipe}};
-  if (!record.set.empty()) json["set"] = parse_json(record.set, "set");
-  json["state"] = record.is_done ? "done" : "failed";
+  Json json = {{"name", record.name},
+               {"state", record.is_done ? "done" : "failed"},
+               {"recipe", record.recipe}};
+  if (!record.set.empty()) json["set"] = parse_json(record.set, "set", kLimits);
   json["seconds"] = record.seconds;
   if (record.summary) json["bake"] = to_json(*record.summary);
   json["problems"] = list_of(record.problems);
@@ -138,18 +140,21 @@ std::optional<BatchRecord> record_from_line(const std::string& line) {
   return {};
 }
 
-std::string name_in_line(const std::string& line) {
-  if (!line.starts_with(kBegin) || !line.ends_with('}')) return "";
+LineStart start_of_line(const std::string& line) {
+  if (!line.starts_with(kBegin) || !line.ends_with('}')) return {};
   const std::size_t first = kBegin.size();
   std::size_t last = first + 1;
   while (last < line.size() && line[last] != '"') last += line[last] == '\\' ? 2 : 1;
-  if (last >= line.size()) return "";
+  if (last >= line.size()) return {};
+  const std::string_view rest = std::string_view(line).substr(last + 1);
+  const bool is_done = rest.starts_with(R"(,"state":"done",)");
+  if (!is_done && !rest.starts_with(R"(,"state":"failed",)")) return {};
   try {
     const Json name = parse_json(std::string_view(line).substr(first, last + 1 - first), "report");
-    return name.is_string() ? name.get<std::string>() : "";
+    if (name.is_string()) return {name.get<std::string>(), is_done};
   } catch (const BakeError&) {
-    return "";
   }
+  return {};
 }
 
 }  // namespace morphbake

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "morphbake/bake/stage_report.h"
 #include "morphbake/diagnostics/problem.h"
 
 namespace morphbake {
@@ -18,22 +19,17 @@ struct FileState {
   std::string hash;
 };
 
-struct StageSeconds {
-  std::string name;
-  double seconds = 0;
-  bool is_cached = false;
-};
-
 /// What a bake gave, for the table of a library.
 struct BakeSummary {
   int vertices = 0;
   int triangles = 0;
   int frames = 0;
-  int targets = 0;           ///< of all outputs
-  std::uint64_t bytes = 0;   ///< of all .glb
-  double max_error = 0;      ///< the largest of all outputs, share of the diagonal
-  double normal_error = 0;   ///< degrees, likewise
-  std::vector<StageSeconds> stages;
+  int targets = 0;          ///< of all outputs
+  std::uint64_t bytes = 0;  ///< of all .glb
+  double max_error = 0;     ///< the largest of all outputs, share of the diagonal
+  double normal_error = 0;  ///< degrees, likewise
+  std::vector<StageReport> stages;  ///< that ran
+  std::vector<std::string> cached;  ///< names of those that were taken from the cache
 };
 
 /// A line of a batch's report: what came of a recipe, and by what a later run sees whether it holds.
@@ -61,7 +57,13 @@ std::string record_to_line(const BatchRecord& record);
 /// @return  none where the line is no record: cut off, or of another program
 std::optional<BatchRecord> record_from_line(const std::string& line);
 
-/// The name in a line of a report, without reading all of it; "" where it is none.
-std::string name_in_line(const std::string& line);
+/// How a line of a report begins.
+struct LineStart {
+  std::string name;  ///< "" where the line is none
+  bool is_done = false;
+};
+
+/// Reads no more of a line than its start.
+LineStart start_of_line(const std::string& line);
 
 }  // namespace morphbake

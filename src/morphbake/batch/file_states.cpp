@@ -63,4 +63,8 @@ Unchanged are_unchanged(const std::vector<FileState>& states, const fs::path& fo
   return unchanged;
 }
 
+void note_times(std::vector<FileState>& states, const fs::path& folder) {
+  for (FileState& state : states) look_at(folder / state.file, state);
+}
+
 }  // namespace morphbake

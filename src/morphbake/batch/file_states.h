@@ -33,4 +33,7 @@ struct Unchanged {
 Unchanged are_unchanged(const std::vector<FileState>& states, const std::filesystem::path& folder,
                         std::int64_t written, FileHashes& hashes);
 
+/// Notes the times of files that are unchanged.
+void note_times(std::vector<FileState>& states, const std::filesystem::path& folder);
+
 }  // namespace morphbake

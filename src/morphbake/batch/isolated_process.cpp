@@ -101,10 +101,8 @@ void kill_group(pid_t process, int signal_number) {
 }  // namespace
 
 IsolatedProcesses::~IsolatedProcesses() {
-  for (Child& child : children_) {
-    kill_group(child.process, SIGKILL);
-    reaped(child);
-  }
+  ask_to_stop();  // so that they take their temporary files with them
+  while (!children_.empty()) wait(std::chrono::milliseconds(100));
 }
 
 bool IsolatedProcesses::start(std::size_t ticket, const std::function<std::string()>& work) {
@@ -154,6 +152,7 @@ ProcessOutcome IsolatedProcesses::reaped(Child& child) {
   outcome.signal = WIFSIGNALED(status) ? WTERMSIG(status) : 0;
   outcome.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : 0;
   const bool is_whole = outcome.signal == 0 && outcome.exit_code == 0 && !outcome.result.empty();
+  outcome.was_asked = child.is_timed_out;
   outcome.end = is_whole             ? ProcessOutcome::End::Finished
                 : child.is_timed_out ? ProcessOutcome::End::TimedOut
                                      : ProcessOutcome::End::Crashed;

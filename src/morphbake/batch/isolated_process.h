@@ -26,11 +26,13 @@ struct ProcessOutcome {
   std::string log;     ///< the end of what it printed
   int signal = 0;      ///< that ended it, or 0
   int exit_code = 0;
+  bool was_asked = false;  ///< to stop, since its time was over
   double seconds = 0;
 };
 
 /// Runs work in processes of its own, which are copies of this one (fork): whatever becomes of them, this
-/// one goes on. It must have one thread when it starts one. When it ends, they are killed.
+/// one goes on. It must have one thread when it starts one. They do not outlive this object, nor this
+/// process.
 class IsolatedProcesses {
  public:
   explicit IsolatedProcesses(ProcessLimits limits) : limits_(limits) {}

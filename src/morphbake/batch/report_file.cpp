@@ -81,6 +81,10 @@ std::vector<fs::path> report_files(const fs::path& folder) {
   return reports;
 }
 
+void make_report(const fs::path& report) {
+  with_locked(report, [](int) {});
+}
+
 void append_line(const fs::path& report, const std::string& line) {
   with_locked(report, [&](int descriptor) {
     const off_t size = ::lseek(descriptor, 0, SEEK_END);
@@ -112,7 +116,7 @@ ReportIndex::ReportIndex(const std::vector<fs::path>& reports) {
     if (fs::file_size(report, error) == 0 || error) continue;
     for (LineReader reader(report); reader.next();) {
       if (reader.line().empty() && !reader.is_too_long()) continue;
-      const std::string name = name_in_line(reader.line());
+      const std::string name = start_of_line(reader.line()).name;
       if (name.empty() || !reader.is_ended()) {
         ++broken_lines_;
         continue;
@@ -133,16 +137,26 @@ void ReportIndex::note(const std::string& name, Place place) {
   }
 }
 
-std::vector<std::string> ReportIndex::lines_of(const std::string& name) const {
+std::vector<ReportLine> ReportIndex::lines_of(const std::string& name) const {
   std::vector<Place> places;
   const auto [first, last] = places_.equal_range(name);
   for (auto each = first; each != last; ++each) places.push_back(each->second);
   std::ranges::sort(places, std::greater(), &Place::report);
-  std::vector<std::string> lines;
+  std::vector<ReportLine> lines;
   for (const Place& place : places) {
-    lines.push_back(line_at(streams_[place.report], place.offset));
+    lines.push_back({place.report, line_at(streams_[place.report], place.offset)});
   }
   return lines;
+}
+
+std::vector<std::string> ReportIndex::names() const {
+  std::vector<std::string> names;
+  names.reserve(places_.size());
+  for (const auto& [name, place] : places_) names.push_back(name);
+  std::ranges::sort(names);
+  const auto repeated = std::ranges::unique(names);
+  names.erase(repeated.begin(), repeated.end());
+  return names;
 }
 
 }  // namespace morphbake

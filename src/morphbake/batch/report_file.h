@@ -25,11 +25,22 @@ std::filesystem::path failures_file(const std::filesystem::path& folder, const S
 /// All reports in a folder, of whole runs and shards, in the order of their names.
 std::vector<std::filesystem::path> report_files(const std::filesystem::path& folder);
 
+/// Makes a report without lines if it is missing.
+///
+/// @throws BakeError "output.unwritable" when nothing can be appended to it
+void make_report(const std::filesystem::path& report);
+
 /// Appends a line to a report that other processes may append to, and replace, at the same time. A
 /// line that was cut off before is ended.
 ///
 /// @throws BakeError "output.unwritable"; then nothing was appended
 void append_line(const std::filesystem::path& report, const std::string& line);
+
+/// A line of a report.
+struct ReportLine {
+  std::size_t report = 0;  ///< of those that were named
+  std::string text;
+};
 
 /// Where the last line of each name is in some reports. The files stay open: what replaces them
 /// meanwhile is not seen.
@@ -38,7 +49,10 @@ class ReportIndex {
   explicit ReportIndex(const std::vector<std::filesystem::path>& reports);
 
   /// The lines of a name, one a report that has it, from the last report that was named to the first.
-  std::vector<std::string> lines_of(const std::string& name) const;
+  std::vector<ReportLine> lines_of(const std::string& name) const;
+
+  /// All names, sorted.
+  std::vector<std::string> names() const;
 
   /// How many lines are no records: cut off, or of another program.
   int broken_lines() const { return broken_lines_; }
