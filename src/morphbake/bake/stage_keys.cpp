@@ -120,6 +120,26 @@ std::vector<fs::path> mask_files(const Recipe& recipe) {
   return files;
 }
 
+Json mask_hashes(const Described& described) {
+  Json hashes = Json::array();
+  for (const fs::path& file : mask_files(described.recipe)) {
+    hashes.push_back(described.files.hashes.of(file));
+  }
+  return hashes;
+}
+
+StageKey describe_shapes(const Described& described, const BakeOptions& options,
+                         const StageKey& connectivity) {
+  Json description = {{"stage", "shapes"},
+                      {"connectivity", connectivity.key},
+                      {"masks", mask_hashes(described)},
+                      {"options", parse_json(options_to_json(options), "options")["solve"]}};
+  for (const char* field : {"units", "regions", "representation", "hold", "gauge"}) {
+    description[field] = or_null(described.document, field);
+  }
+  return key_of("shapes", description);
+}
+
 StageKey describe_solve(const Described& described, const BakeOptions& options,
                         const StageKey& connectivity) {
   // Fields of which other stages' descriptions have what they need, or that decide nothing.
@@ -127,17 +147,13 @@ StageKey describe_solve(const Described& described, const BakeOptions& options,
                                      "outputs", "preview", "name",    "version"};
   Json rest = described.document;
   for (const char* field : kElsewhere) rest.erase(field);
-  Json masks = Json::array();
-  for (const fs::path& file : mask_files(described.recipe)) {
-    masks.push_back(described.files.hashes.of(file));
-  }
   const Json all_options = parse_json(options_to_json(options), "options");
   return key_of("solve",
                 {{"stage", "solve"},
                  {"connectivity", connectivity.key},
                  {"derived", derived_sources(described)},
                  {"recipe", std::move(rest)},
-                 {"masks", std::move(masks)},
+                 {"masks", mask_hashes(described)},
                  {"options", {{"solve", all_options["solve"]}, {"basis", all_options["basis"]}}}});
 }
 
@@ -173,12 +189,21 @@ StageKey describe_pictures(const Described& described, std::string name, const S
 
 }  // namespace
 
+BakeKeys no_keys(const Recipe& recipe) {
+  BakeKeys keys;
+  keys.regions.resize(recipe.regions.size());
+  keys.outputs.resize(recipe.outputs.size());
+  keys.previews.resize(recipe.outputs.size());
+  return keys;
+}
+
 BakeKeys bake_keys(const Recipe& recipe, const BakeOptions& options, InputFiles& files) {
   const Described described{recipe, parse_json(recipe.document, recipe.file.string()), files};
   BakeKeys keys;
   keys.connectivity = describe_connectivity(described);
   keys.regions = describe_regions(described, keys.connectivity);
   keys.derived = describe_derived(described, keys.connectivity);
+  keys.shapes = describe_shapes(described, options, keys.connectivity);
   keys.solve = describe_solve(described, options, keys.connectivity);
   for (std::size_t i = 0; i < recipe.outputs.size(); ++i) {
     keys.outputs.push_back(describe_output(described, i, keys.solve));
@@ -204,7 +229,7 @@ std::string bake_key(const BakeKeys& keys) {
   for (const std::vector<StageKey>& stages : {keys.outputs, keys.previews}) {
     for (const StageKey& stage : stages) all += stage.key;
   }
-  return content_hash(keys.maps ? all + keys.maps->key : all);
+  return content_hash(all + keys.maps.key);
 }
 
 std::vector<fs::path> files_read_by(const Recipe& recipe, InputFiles& files) {

@@ -2,7 +2,6 @@
 
 #include <filesystem>
 #include <map>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -30,11 +29,15 @@ struct BakeKeys {
   StageKey connectivity;
   std::vector<StageKey> regions;  ///< one a region of the recipe
   StageKey derived;               ///< sources that are made from others
+  StageKey shapes;                ///< of the timeline, but for the numbers that they come from
   StageKey solve;
   std::vector<StageKey> outputs;
-  std::vector<StageKey> previews;  ///< one an output, or none
-  std::optional<StageKey> maps;    ///< pictures that explain the recipe
+  std::vector<StageKey> previews;  ///< one an output; of recipes with previews
+  StageKey maps;  ///< pictures that explain the recipe; of recipes that ask for such
 };
+
+/// Keys of nothing: for a bake without a cache.
+BakeKeys no_keys(const Recipe& recipe);
 
 /// @throws BakeError as file_hash, of files that are there no more
 BakeKeys bake_keys(const Recipe& recipe, const BakeOptions& options, InputFiles& files);

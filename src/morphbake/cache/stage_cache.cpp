@@ -99,7 +99,7 @@ bool StageCache::contains(const std::string& key) const {
   return is_on() && fs::is_regular_file(file_of(key), error);
 }
 
-std::optional<CacheEntry> StageCache::find(const std::string& key, const Observer& observer) {
+std::optional<CacheEntry> StageCache::find(const std::string& key, const Observer& observer) const {
   if (!contains(key)) return {};
   const fs::path file = file_of(key);
   std::optional<CacheEntry> entry;
@@ -114,24 +114,21 @@ std::optional<CacheEntry> StageCache::find(const std::string& key, const Observe
   }
   std::error_code ignored;
   fs::remove(file, ignored);
-  warn_once("cache.damaged", file, "this entry of the cache is damaged; what it held is made anew",
-            "if it happens again, look at the disk", observer);
+  report(observer, Problem{Severity::Warning,
+                           "cache.damaged",
+                           {file.string(), "", 0, 0},
+                           "this entry of the cache is damaged; what it held is made anew",
+                           "if it happens again, look at the disk"});
   return {};
 }
 
-void StageCache::keep(const std::string& key, const CacheEntry& entry, const Observer& observer) {
+void StageCache::keep(const std::string& key, const CacheEntry& entry) const {
   if (!is_on()) return;
   const std::string bytes = entry_to_bytes(entry);
   if (bytes.size() > options_.size_limit / kFolders) return;
   const fs::path file = file_of(key);
-  try {
-    replace_unsynced(file, bytes);
-    make_room(file.parent_path());
-  } catch (const BakeError& error) {
-    const Problem& problem = error.problems().front();
-    warn_once("cache.unwritable", options_.folder, "the cache keeps nothing: " + problem.message,
-              problem.hint, observer);
-  }
+  replace_unsynced(file, bytes);
+  make_room(file.parent_path());
 }
 
 void StageCache::make_room(const fs::path& folder) const {
@@ -154,12 +151,6 @@ void StageCache::make_room(const fs::path& folder) const {
     if (total <= wanted) return;
     if (fs::remove(file.path, ignored)) total -= file.bytes;
   }
-}
-
-void StageCache::warn_once(const char* code, const fs::path& file, const std::string& message,
-                           const std::string& hint, const Observer& observer) {
-  if (std::exchange(has_warned_, true)) return;
-  report(observer, Problem{Severity::Warning, code, {file.string(), "", 0, 0}, message, hint});
 }
 
 }  // namespace morphbake

@@ -33,7 +33,7 @@ struct CacheOptions {
 /// Entries appear by renaming and carry a hash of their bytes, so that one that was cut off or
 /// damaged is found, told of and made again; nothing is locked. Each sixteenth of the folder stays
 /// below a sixteenth of the limit: those that were used least recently go first, and a larger entry
-/// is not kept. No fault of the folder stops a bake: it is told as a warning, once.
+/// is not kept.
 class StageCache {
  public:
   /// No cache: finds nothing, keeps nothing.
@@ -47,19 +47,20 @@ class StageCache {
   bool contains(const std::string& key) const;
 
   /// The entry, which counts as used. Warns "cache.damaged" of one that is not whole, which goes.
-  std::optional<CacheEntry> find(const std::string& key, const Observer& observer);
+  std::optional<CacheEntry> find(const std::string& key, const Observer& observer) const;
 
-  /// Keeps an entry. Warns "cache.unwritable".
-  void keep(const std::string& key, const CacheEntry& entry, const Observer& observer);
+  /// Keeps an entry.
+  /// @throws BakeError "output.unwritable"
+  void keep(const std::string& key, const CacheEntry& entry) const;
+
+  /// What the folder holds, for people.
+  const CacheOptions& options() const { return options_; }
 
  private:
   std::filesystem::path file_of(const std::string& key) const;
-  void warn_once(const char* code, const std::filesystem::path& file, const std::string& message,
-                 const std::string& hint, const Observer& observer);
   void make_room(const std::filesystem::path& folder) const;
 
   CacheOptions options_;
-  bool has_warned_ = false;
 };
 
 }  // namespace morphbake
