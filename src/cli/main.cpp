@@ -23,6 +23,7 @@ Examples:
   morphbake init egg.glb giraffe.glb         a first recipe: recipe.json
   morphbake validate recipe.json             what is wrong with it, all at once
   morphbake bake recipe.json -o out          the morph; prints the files it wrote
+  morphbake batch 'library/*/recipe.json'    a whole library, in parallel; goes on where it was
   morphbake remesh recipe.json -o same       the sources on one new connectivity
   morphbake inspect out/morph.glb            targets, sizes, bounds
   morphbake preview out/morph.glb            turntable of any morph glTF
@@ -34,8 +35,8 @@ Examples:
   morphbake config                           every option with its default
 
 Results go to stdout, everything else to stderr. NO_COLOR is respected.
-Exit codes: 0 done, 1 bug, 2 usage or recipe, 4 source mesh, 5 numerical,
-            6 cannot write, 130 interrupted; diff, golden, lint: 0 right, 1 wrong, 2 error
+Exit codes: 0 done, 1 bug, 2 usage or recipe, 3 some recipes of a batch failed,
+            4 source mesh, 5 numerical, 6 cannot write, 130 interrupted; diff, golden, lint: 0 right, 1 wrong, 2 error
 Documentation: docs/ and examples/ of the source; recipes: schemas/recipe.schema.json)";
 
 struct GlobalFlags {
@@ -154,6 +155,7 @@ ExitCode run_program(int argc, char** argv, Terminal& terminal) {
   for (const Command& command : commands) {
     if (!command.parser->parsed()) continue;
     if (command.judge) return judge(command, terminal);
+    if (command.conclude) return command.conclude(terminal);
     command.run(terminal);
   }
   return ExitCode::Done;

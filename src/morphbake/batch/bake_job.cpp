@@ -47,6 +47,7 @@ BakeSummary summary_of(const BakeReport& report) {
     summary.normal_error = std::max(summary.normal_error, output.normals.maximum);
   }
   summary.stages = report.stages;
+  summary.cached = report.cached;
   return summary;
 }
 
@@ -121,7 +122,7 @@ JobResult::Kind bake_into(BatchRecord& record, const BakeJob& job, const BatchOp
   }
   Observer observer;
   observer.is_cancelled = is_cancelled;
-  const BakeReport report = bake(recipe, bake_options, observer);
+  const BakeReport report = bake(recipe, bake_options, options.cache, observer);
   record.summary = summary_of(report);
   record.problems = report.problems;
   record.outputs = outputs_of(report, job.folder);

@@ -15,8 +15,7 @@ constexpr std::size_t kNameBytes = 1000;
 /// Whether the batch itself writes a file that could be called so.
 bool is_reserved(const std::string& first) {
   const bool is_report = first.starts_with("report.") || first.starts_with("failures.");
-  const bool is_page = first == "index.html" || first == ".batch.lock" || first == ".cache";
-  return is_page || (is_report && first.ends_with(".jsonl"));
+  return first == "index.html" || (is_report && first.ends_with(".jsonl"));
 }
 
 std::string refusal_of(const std::string& text, const std::filesystem::path& path) {

@@ -1,6 +1,8 @@
 #include "morphbake/batch/batch_results.h"
 
+#include <algorithm>
 #include <fstream>
+#include <optional>
 
 #include "morphbake/batch/batch_page.h"
 #include "morphbake/batch/line_reader.h"
@@ -33,7 +35,34 @@ void for_each_line(const fs::path& report, const std::function<void(const std::s
   for (LineReader reader(report); reader.next();) take(reader.line());
 }
 
+/// With files as the user calls them.
+BatchResult shown_in(const fs::path& folder, BatchResult result) {
+  for (fs::path* file : {&result.report, &result.failures, &result.page}) {
+    if (!file->empty()) *file = folder / file->filename();
+  }
+  return result;
+}
+
+/// Whether the outputs that a line tells of are there.
+bool has_outputs(const BatchRecord& record, const fs::path& folder) {
+  std::error_code error;
+  return record.is_done && std::ranges::all_of(record.outputs, [&](const FileState& output) {
+           return fs::exists(folder / output.file, error);
+         });
+}
+
 }  // namespace
+
+void take_others(const ReportIndex& index, const std::unordered_set<std::string>& own,
+                 const fs::path& folder, bool is_alone, const TakeLine& take) {
+  for (const std::string& name : index.names()) {
+    if (own.contains(name)) continue;
+    for (const ReportLine& line : index.lines_of(name)) {
+      const std::optional<BatchRecord> record = record_from_line(line.text);
+      if (record && (!is_alone || has_outputs(*record, folder))) take(line.text);
+    }
+  }
+}
 
 fs::path make_batch_folder(const fs::path& folder) {
   std::error_code error;
@@ -63,7 +92,7 @@ BatchResult write_results(const fs::path& folder, const BatchOptions& options,
       if (!start_of_line(line).is_done) failures << line << '\n';
     });
   });
-  if (!options.write_page) return result;
+  if (!options.write_page) return shown_in(options.folder, result);
   result.page = folder / "index.html";
   write_file(result.page, [&](std::ostream& page) {
     write_page_start(page, result.progress);
@@ -73,7 +102,7 @@ BatchResult write_results(const fs::path& folder, const BatchOptions& options,
     });
     write_page_end(page);
   });
-  return result;
+  return shown_in(options.folder, result);
 }
 
 }  // namespace morphbake

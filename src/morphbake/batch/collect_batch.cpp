@@ -52,8 +52,9 @@ BatchResult collect_batch(const Manifest& manifest, const BatchOptions& options,
                           const BatchObserver& observer) {
   const fs::path folder = make_batch_folder(options.folder);
   FileHashes hashes;
-  return write_results(folder, options, [&](const std::function<void(const std::string&)>& take) {
+  return write_results(folder, options, [&](const TakeLine& take) {
     const ReportIndex index(report_files(folder));
+    std::unordered_set<std::string> own;
     for (std::size_t i = 0; i < manifest.names.size(); ++i) {
       std::string line = best_of(index.lines_of(manifest.names[i]), folder, hashes);
       if (line.empty()) {
@@ -62,7 +63,9 @@ BatchResult collect_batch(const Manifest& manifest, const BatchOptions& options,
         if (observer.on_failure) observer.on_failure(record);
       }
       take(line);
+      own.insert(manifest.names[i]);
     }
+    take_others(ReportIndex({report_file(folder, {})}), own, folder, true, take);
   });
 }
 

@@ -262,18 +262,14 @@ void BatchRun::stop() {
 }
 
 BatchResult BatchRun::finish(bool is_alone) const {
-  const auto lines = [&](const std::function<void(const std::string&)>& take) {
+  const auto lines = [&](const TakeLine& take) {
     const ReportIndex index({report_});
     std::unordered_set<std::string> own;
     for (const std::size_t entry : chosen_) {
       for (const ReportLine& line : index.lines_of(manifest_.names[entry])) take(line.text);
-      if (!is_alone) own.insert(manifest_.names[entry]);
+      own.insert(manifest_.names[entry]);
     }
-    if (is_alone) return;
-    for (const std::string& name : index.names()) {
-      if (own.contains(name)) continue;
-      for (const ReportLine& line : index.lines_of(name)) take(line.text);
-    }
+    take_others(index, own, folder_, is_alone, take);
   };
   BatchResult result = write_results(folder_, options_, lines);
   result.progress = progress_;
@@ -286,7 +282,7 @@ BatchResult BatchRun::run() {
   while (true) {
     if (is_cancelled()) {
       stop();
-      return {progress_, true, report_, {}, {}};
+      return {progress_, true, options_.folder / report_.filename(), {}, {}};
     }
     const Step step = processes_.running() < most_ ? take_next() : Step::Nothing;
     if (processes_.running() == 0 && step == Step::Nothing) break;
