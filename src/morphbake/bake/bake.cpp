@@ -9,6 +9,7 @@
 #include "morphbake/bake/kept_stages.h"
 #include "morphbake/bake/load_sources.h"
 #include "morphbake/bake/outputs.h"
+#include "morphbake/bake/plan.h"
 #include "morphbake/bake/previews.h"
 #include "morphbake/bake/region_pictures.h"
 #include "morphbake/bake/solve_recipe.h"
@@ -46,6 +47,7 @@ struct NewPictures {
   fs::path stem;
   std::vector<fs::path> files;
   std::vector<Problem> warnings;
+  double seconds;
 };
 
 /// What all outputs of a bake wait in until they appear.
@@ -81,9 +83,11 @@ std::vector<fs::path> stage_pictures(const Running& bake, const Pictures& pictur
     }
     return staged;
   }
+  const Stopwatch watch;
   std::vector<Problem> warnings;
   staged = pictures.make(recording(bake.observer, warnings), waiting.outputs);
-  waiting.new_pictures.push_back({&pictures.stage, pictures.stem, staged, std::move(warnings)});
+  waiting.new_pictures.push_back(
+      {&pictures.stage, pictures.stem, staged, std::move(warnings), watch.seconds()});
   return staged;
 }
 
@@ -95,7 +99,7 @@ void keep_pictures(const Running& bake, const std::vector<NewPictures>& all) {
       kept.endings.push_back(file.string().substr(pictures.stem.string().size()));
       kept.bytes.push_back(read_file(file, kLargestPicture));
     }
-    bake.cache.keep(*pictures.stage, entry_of(kept), pictures.warnings);
+    bake.cache.keep(*pictures.stage, entry_of(kept), pictures.warnings, pictures.seconds);
   }
 }
 
@@ -151,6 +155,7 @@ KeptResults find_results(const Running& bake) {
 
 /// Runs the stages before the outputs, and says what they did.
 std::unique_ptr<SolvedStages> run_stages(const Running& bake, BakeReport& report) {
+  const Stopwatch watch;
   std::vector<Problem> warnings;
   auto stages = solve_recipe(bake.recipe, bake.options, bake.cache, bake.keys, bake.clock,
                              recording(bake.observer, warnings));
@@ -162,7 +167,9 @@ std::unique_ptr<SolvedStages> run_stages(const Running& bake, BakeReport& report
   report.connectivity.vertices = report.vertices;
   report.connectivity.triangles = report.triangles;
   report.solve = stages->timeline->report;
-  if (bake.cache.is_on()) bake.cache.keep(bake.keys.solve, entry_of(report), warnings);
+  if (bake.cache.is_on()) {
+    bake.cache.keep(bake.keys.solve, entry_of(report), warnings, watch.seconds());
+  }
   return stages;
 }
 
@@ -173,10 +180,13 @@ BakedOutput make_output(const Running& bake, std::size_t index, std::optional<Ke
     bake.cache.take(bake.keys.outputs[index], kept->warnings, bake.observer);
     return std::move(kept->output);
   }
+  const Stopwatch watch;
   std::vector<Problem> warnings;
   BakedOutput output =
       bake_output(stages->view(), index, bake.options, recording(bake.observer, warnings));
-  if (bake.cache.is_on()) bake.cache.keep(bake.keys.outputs[index], entry_of(output), warnings);
+  if (bake.cache.is_on()) {
+    bake.cache.keep(bake.keys.outputs[index], entry_of(output), warnings, watch.seconds());
+  }
   return output;
 }
 
@@ -244,6 +254,7 @@ BakeReport bake(const Recipe& recipe, const BakeOptions& options, const StageCac
   if (recipe.preview) stage_all_pictures(bake, kept.maps, stages.get(), staged, waiting);
   waiting.outputs.commit();
   keep_pictures(bake, waiting.new_pictures);
+  if (cache.is_on()) remember_plan(recipe, keys, cache);
 
   for (StagedOutput& each : staged) report.outputs.push_back(std::move(each.report));
   report.stages = clock.finish();

@@ -88,8 +88,14 @@ void BakeCache::take(const StageKey& stage, const std::vector<Problem>& warnings
   for (const Problem& warning : warnings) report(observer, warning);
 }
 
-void BakeCache::keep(const StageKey& stage, CacheEntry entry,
-                     const std::vector<Problem>& warnings) {
+std::optional<double> BakeCache::seconds_of(const StageKey& stage) const {
+  const auto found = seconds_.find(stage.key);
+  return found == seconds_.end() ? std::nullopt : std::optional(found->second);
+}
+
+void BakeCache::keep(const StageKey& stage, CacheEntry entry, const std::vector<Problem>& warnings,
+                     double seconds) {
+  seconds_[stage.key] = seconds;
   if (!keeps_) return;
   const Json facts = parse_json(entry.facts, stage.name, {entry.facts.size()});
   entry.facts = Json({{"facts", facts}, {"warnings", to_json(warnings, recipe_)}}).dump();

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <chrono>
+#include <map>
 #include <optional>
 #include <string>
 #include <utility>
@@ -37,8 +39,15 @@ class BakeCache {
   /// Notes that what was found is used, and tells its warnings.
   void take(const StageKey& stage, const std::vector<Problem>& warnings, const Observer& observer);
 
+  bool contains(const StageKey& stage) const { return cache_.contains(stage.key); }
+
   /// @param warnings  of the stage
-  void keep(const StageKey& stage, CacheEntry entry, const std::vector<Problem>& warnings);
+  /// @param seconds   that it took
+  void keep(const StageKey& stage, CacheEntry entry, const std::vector<Problem>& warnings,
+            double seconds);
+
+  /// How long a stage took that was made in this bake.
+  std::optional<double> seconds_of(const StageKey& stage) const;
 
   /// Names of the stages that were taken, in order.
   const std::vector<std::string>& taken() const { return taken_; }
@@ -49,6 +58,18 @@ class BakeCache {
   const Observer& observer_;
   bool keeps_;
   std::vector<std::string> taken_;
+  std::map<std::string, double> seconds_;  // by key
+};
+
+/// Seconds since it was made.
+class Stopwatch {
+ public:
+  double seconds() const {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - began_).count();
+  }
+
+ private:
+  std::chrono::steady_clock::time_point began_ = std::chrono::steady_clock::now();
 };
 
 /// The stage's result from the cache, or made and kept.
@@ -65,9 +86,10 @@ auto taken_or_made(BakeCache& cache, const StageKey& stage, const Observer& obse
       return std::move(*result);
     }
   }
+  const Stopwatch watch;
   std::vector<Problem> warnings;
   auto result = make(recording(observer, warnings));
-  if (cache.is_on()) cache.keep(stage, to_entry(result), warnings);
+  if (cache.is_on()) cache.keep(stage, to_entry(result), warnings, watch.seconds());
   return result;
 }
 

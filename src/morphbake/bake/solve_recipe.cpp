@@ -37,10 +37,11 @@ RegionFields make_regions(const Recipe& recipe, const MorphableMesh& mesh,
   for (std::size_t r = 0; r < known.size(); ++r) {
     is_new.push_back(!known[r] && is_worth_keeping(recipe.regions[r]));
   }
+  const Stopwatch watch;  // of all together: they share a factorisation
   RegionFields fields =
       region_fields(mesh, recipe, mask_values(mesh, recipe, originals), std::move(known));
   for (std::size_t r = 0; cache.is_on() && r < fields.size(); ++r) {
-    if (is_new[r]) cache.keep(keys.regions[r], entry_of(fields[r]), {});
+    if (is_new[r]) cache.keep(keys.regions[r], entry_of(fields[r]), {}, watch.seconds());
   }
   return fields;
 }

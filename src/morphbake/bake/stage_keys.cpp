@@ -165,7 +165,8 @@ fs::path profile_file(const Recipe& recipe, const Json& output) {
 }
 
 StageKey describe_output(const Described& described, std::size_t index, const StageKey& solve) {
-  Json output = described.document["outputs"][index];
+  const Json outputs = or_null(described.document, "outputs");  // without, there is one
+  Json output = outputs.is_array() ? outputs[index] : Json::object();
   const fs::path profile = profile_file(described.recipe, output);
   if (!profile.empty()) output["profile"] = described.files.hashes.of(profile);
   output.erase("file");
@@ -245,7 +246,8 @@ std::vector<fs::path> files_read_by(const Recipe& recipe, InputFiles& files) {
   }
   const std::vector<fs::path> masks = mask_files(recipe);
   read.insert(read.end(), masks.begin(), masks.end());
-  for (const Json& output : parse_json(recipe.document, recipe.file.string())["outputs"]) {
+  const Json document = parse_json(recipe.document, recipe.file.string());
+  for (const Json& output : document.value("outputs", Json::array())) {
     const fs::path profile = profile_file(recipe, output);
     if (!profile.empty()) read.push_back(profile);
   }

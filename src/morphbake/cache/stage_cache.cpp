@@ -39,6 +39,7 @@ std::vector<KeptFile> kept_files(const fs::path& folder) {
   std::error_code error;
   for (fs::directory_iterator at(folder, error), end; !error && at != end; at.increment(error)) {
     std::error_code gone;  // another process may remove it meanwhile
+    if (at->path().extension() != kEnding) continue;
     KeptFile file{at->path(), at->file_size(gone), at->last_write_time(gone)};
     if (!gone) files.push_back(std::move(file));
   }
@@ -46,6 +47,15 @@ std::vector<KeptFile> kept_files(const fs::path& folder) {
     return std::tie(a.used, a.path) < std::tie(b.used, b.path);
   });
   return files;
+}
+
+/// The folders in which entries are: one a first digit of keys.
+std::vector<fs::path> folders_of(const fs::path& cache) {
+  std::vector<fs::path> folders;
+  for (const char digit : std::string_view("0123456789abcdef")) {
+    folders.push_back(cache / std::string(1, digit));
+  }
+  return folders;
 }
 
 /// The modification time is that of the last use.
@@ -129,6 +139,25 @@ void StageCache::keep(const std::string& key, const CacheEntry& entry) const {
   const fs::path file = file_of(key);
   replace_unsynced(file, bytes);
   make_room(file.parent_path());
+}
+
+CacheContents StageCache::contents() const {
+  CacheContents contents;
+  for (const fs::path& folder : folders_of(options_.folder)) {
+    for (const KeptFile& file : kept_files(folder)) {
+      ++contents.entries;
+      contents.bytes += file.bytes;
+    }
+  }
+  return contents;
+}
+
+void StageCache::clear() const {
+  std::error_code ignored;
+  for (const fs::path& folder : folders_of(options_.folder)) {
+    for (const KeptFile& file : kept_files(folder)) fs::remove(file.path, ignored);
+    fs::remove(folder, ignored);
+  }
 }
 
 void StageCache::make_room(const fs::path& folder) const {

@@ -28,6 +28,12 @@ struct CacheOptions {
   std::uintmax_t size_limit = std::uintmax_t{10} << 30;  ///< bytes
 };
 
+/// How much a cache holds.
+struct CacheContents {
+  int entries = 0;
+  std::uintmax_t bytes = 0;
+};
+
 /// Results of stages by key, in a folder that any number of processes and machines may share.
 ///
 /// Entries appear by renaming and carry a hash of their bytes, so that one that was cut off or
@@ -53,7 +59,11 @@ class StageCache {
   /// @throws BakeError "output.unwritable"
   void keep(const std::string& key, const CacheEntry& entry) const;
 
-  /// What the folder holds, for people.
+  CacheContents contents() const;
+
+  /// Removes all entries, and nothing else that may be in the folder.
+  void clear() const;
+
   const CacheOptions& options() const { return options_; }
 
  private:
