@@ -19,12 +19,23 @@ std::string escaped(const std::string& text) {
   std::string safe;
   for (const char letter : without_control_characters(text)) {
     switch (letter) {
-      case '&': safe += "&amp;"; break;
-      case '<': safe += "&lt;"; break;
-      case '>': safe += "&gt;"; break;
-      case '"': safe += "&quot;"; break;
-      case '\'': safe += "&#39;"; break;
-      default: safe += letter;
+      case '&':
+        safe += "&amp;";
+        break;
+      case '<':
+        safe += "&lt;";
+        break;
+      case '>':
+        safe += "&gt;";
+        break;
+      case '"':
+        safe += "&quot;";
+        break;
+      case '\'':
+        safe += "&#39;";
+        break;
+      default:
+        safe += letter;
     }
   }
   return safe;
@@ -61,8 +72,9 @@ std::string picture_cell(const BatchRecord& record) {
   });
   if (picture == record.outputs.end()) return "<td class=pic></td>";
   const std::string url = url_of(picture->file);
-  return fmt::format("<td class=pic><a href=\"{0}\"><img loading=lazy src=\"{0}\" alt=\"{1}\"></a></td>",
-                     url, escaped("pictures of " + record.name));
+  return fmt::format(
+      "<td class=pic><a href=\"{0}\"><img loading=lazy src=\"{0}\" alt=\"{1}\"></a></td>", url,
+      escaped("pictures of " + record.name));
 }
 
 /// The files that were written, and what was told of them.
@@ -106,8 +118,9 @@ std::string summary_cells(const BakeSummary& summary) {
 
 void write_page_start(std::ostream& page, const BatchProgress& progress) {
   page << kPageStart
-       << fmt::format("<p><span id=shown>{0}</span> of {0} recipes; {1} failed. morphbake {2}.</p>\n",
-                      progress.total, progress.failed, version())
+       << fmt::format(
+              "<p><span id=shown>{0}</span> of {0} recipes; {1} failed. morphbake {2}.</p>\n",
+              progress.total, progress.failed, version())
        << kTableStart;
 }
 

@@ -18,8 +18,8 @@
 namespace morphbake {
 namespace {
 
-constexpr std::chrono::seconds kPatience(10);       // after a polite SIGTERM
-constexpr std::size_t kLogBytes = 4096;             // of the end of what a process prints
+constexpr std::chrono::seconds kPatience(10);  // after a polite SIGTERM
+constexpr std::size_t kLogBytes = 4096;        // of the end of what a process prints
 constexpr std::size_t kMostResult = std::size_t{64} << 20;
 
 /// Both ends of a pipe; -1 where there is none.

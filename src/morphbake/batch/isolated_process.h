@@ -30,12 +30,16 @@ struct ProcessOutcome {
   double seconds = 0;
 };
 
-/// Runs work in processes of its own, which are copies of this one (fork): whatever becomes of them, this
-/// one goes on. It must have one thread when it starts one. They do not outlive this object, nor this
-/// process.
+/// Runs work in processes of its own, which are copies of this one (fork): whatever becomes of them,
+/// this one goes on. They do not outlive this object, nor this process.
+///
+/// Of a process with threads the copy has one only, and waits for ever for what another one held. So
+/// whoever starts work here runs none by TBB; OpenBLAS, which has threads from its start, ends them
+/// for a fork by itself.
 class IsolatedProcesses {
  public:
   explicit IsolatedProcesses(ProcessLimits limits) : limits_(limits) {}
+
   IsolatedProcesses(const IsolatedProcesses&) = delete;
   IsolatedProcesses& operator=(const IsolatedProcesses&) = delete;
   ~IsolatedProcesses();

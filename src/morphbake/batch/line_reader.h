@@ -21,9 +21,13 @@ class LineReader {
   bool next();
 
   const std::string& line() const { return line_; }  ///< without its end
-  int number() const { return number_; }              ///< of the line, from 1
-  std::uint64_t offset() const { return offset_; }    ///< of its first byte
+
+  int number() const { return number_; }  ///< of the line, from 1
+
+  std::uint64_t offset() const { return offset_; }  ///< of its first byte
+
   bool is_too_long() const { return is_too_long_; }
+
   bool is_ended() const { return is_ended_; }  ///< whether a line break follows
 
  private:

@@ -12,7 +12,8 @@ namespace {
 
 /// Beside these a line of a report has what came of the recipe.
 const std::vector<std::string> kFields = {"recipe", "name", "set"};
-constexpr const char* kHint = R"(write "file.json", or {"recipe": "file.json", "name": "nose", "set": {"/timeline/duration": 2}})";
+constexpr const char* kHint =
+    R"(write "file.json", or {"recipe": "file.json", "name": "nose", "set": {"/timeline/duration": 2}})";
 
 [[noreturn]] void fail(const char* code, Location at, std::string pointer, std::string message,
                        std::string hint = kHint) {
