@@ -1,6 +1,6 @@
 // Writes the files from which fuzzing starts: small ones, each another feature.
 //
-//   node make_seeds.mjs FOLDER    makes FOLDER/gltf and FOLDER/recipe
+//   node make_seeds.mjs FOLDER    makes FOLDER/gltf, FOLDER/recipe, ...
 import { existsSync, mkdirSync, readdirSync, readFileSync, rmSync, statSync, writeFileSync } from 'node:fs';
 import { basename, dirname, extname, join, relative } from 'node:path';
 import { fileURLToPath } from 'node:url';
@@ -35,7 +35,7 @@ function made(change) {
 }
 
 rmSync(folder, { recursive: true, force: true });
-for (const kind of ['gltf', 'recipe']) mkdirSync(join(folder, kind), { recursive: true });
+for (const kind of ['cache', 'gltf', 'landmarks', 'recipe']) mkdirSync(join(folder, kind), { recursive: true });
 
 write('gltf', 'octahedron.gltf', JSON.stringify(octahedron()));
 write('gltf', 'octahedron.glb', made((gltf) => { const { json, bin } = binaryOctahedron(gltf); return glb([json, bin]); }));
@@ -52,6 +52,22 @@ for (const place of ['examples', 'tests/cli', 'tests/clients']) {
   for (const file of filesBelow(join(root, place), ['.json'])) {
     if (readFileSync(file, 'utf8').includes('"sources"')) write('recipe', relative(root, file), readFileSync(file));
   }
+}
+for (const file of filesBelow(join(root, 'examples/shapes'), ['.json'])) write('landmarks', basename(file), readFileSync(file));
+write('landmarks', 'ways.json', JSON.stringify({
+  version: 1, landmarks: { a: { vertex: 3 }, b: { face: 1, barycentric: [0.5, 0.25, 0.25] }, c: { position: [0, -1e-3, 2] } },
+}));
+// Bodies of entries: facts, and blobs of the sizes that the stages expect.
+const solve = { representation: 'laplacian', representation_reason: '', solver: 'direct', reason: '', unknowns: 2, held: 0, factor_bytes: 0, solves: [] };
+const entries = {
+  shapes: [{ names: ['a'], report: solve }, [48, 48]],
+  flood: [{ softness: 0.5 }, [16]],
+  files: [{ endings: ['.gif'] }, [1]],
+  output: [{ kind: 'tracks', targets: ['a'], weight_keys: 2, max_error: 0, worst_time: 0, worst_vertex: 0, node: 0, normals: { maximum: 0, percentile_99: 0, time: 0, vertex: 0 } }, [4]],
+  report: [{ vertices: 2, triangles: 1, components: 1, frames: 2, solve, connectivity: { mode: 'remesh', vertices: 2, triangles: 1, repairs: [{ source: 'a', repairs: { degenerate: 0, duplicate: 0, turned: 0 } }], steps: [{ name: 'sphere', seconds: 1 }], texture: null, quality: null } }, []],
+};
+for (const [name, [facts, blobs]] of Object.entries(entries)) {
+  write('cache', name, Buffer.concat([Buffer.from(`${JSON.stringify({ facts, blobs })}\n`), ...blobs.map((size) => Buffer.alloc(size))]));
 }
 // Names as the fuzz target has them beside the recipe.
 write('recipe', 'two_sources.json', JSON.stringify({
