@@ -14,10 +14,10 @@
 namespace morphbake {
 namespace {
 
-/// As text of HTML, also in quotes.
-std::string escaped(const std::string& text) {
+/// As text of HTML, also in quotes; of control characters line breaks stay.
+std::string escaped_lines(const std::string& text) {
   std::string safe;
-  for (const char letter : without_control_characters(text)) {
+  for (const char letter : text) {
     switch (letter) {
       case '&':
         safe += "&amp;";
@@ -37,6 +37,22 @@ std::string escaped(const std::string& text) {
       default:
         safe += letter;
     }
+  }
+  return safe;
+}
+
+/// One line of it.
+std::string escaped(const std::string& text) {
+  return escaped_lines(without_control_characters(text));
+}
+
+/// Several lines, which control characters do not disturb.
+std::string escaped_text(const std::string& text) {
+  std::string safe;
+  for (std::size_t begin = 0; begin <= text.size();) {
+    const std::size_t end = std::min(text.find('\n', begin), text.size());
+    safe += (begin > 0 ? "\n" : "") + escaped(text.substr(begin, end - begin));
+    begin = end + 1;
   }
   return safe;
 }
@@ -77,6 +93,15 @@ std::string picture_cell(const BatchRecord& record) {
       escaped("pictures of " + record.name));
 }
 
+std::string problems_of(const BatchRecord& record, Severity severity, const char* style) {
+  std::string text;
+  for (const Problem& problem : record.problems) {
+    if (problem.severity != severity) continue;
+    text += fmt::format("<p class={}>{}</p>", style, escaped_text(format_problem(problem)));
+  }
+  return text;
+}
+
 /// The files that were written, and what was told of them.
 std::string name_cell(const BatchRecord& record) {
   std::string cell = fmt::format("<td class=name data-v=\"{0}\"><b>{0}</b>", escaped(record.name));
@@ -85,14 +110,14 @@ std::string name_cell(const BatchRecord& record) {
     const std::string file = output.file.substr(output.file.rfind('/') + 1);
     cell += fmt::format(" <a href=\"{}\">{}</a>", url_of(output.file), escaped(file));
   }
-  for (const Problem& problem : record.problems) {
-    const bool is_error = problem.severity == Severity::Error;
-    cell += fmt::format("<p class={}>{}</p>", is_error ? "error" : "warning",
-                        escaped(format_problem(problem)));
+  cell += problems_of(record, Severity::Error, "error");
+  const std::string warnings = problems_of(record, Severity::Warning, "warning");
+  if (!warnings.empty()) {
+    cell += fmt::format("<details><summary>warnings</summary>{}</details>", warnings);
   }
   if (!record.log.empty()) {
     cell += fmt::format("<details><summary>printed at the end</summary><pre>{}</pre></details>",
-                        escaped(record.log));
+                        escaped_text(record.log));
   }
   return cell + "</td>";
 }
