@@ -72,10 +72,11 @@ class IsolatedProcesses {
 
   void enforce_limits();
   static void read_from(Child& child);
-  static ProcessOutcome reaped(Child& child);
+  ProcessOutcome ended(Child& child);
 
   ProcessLimits limits_;
   std::vector<Child> children_;
+  std::vector<int> ending_;  ///< processes that have given their results
 };
 
 }  // namespace morphbake
