@@ -17,6 +17,7 @@
 #include "morphbake/batch/connectivity_keys.h"
 #include "morphbake/batch/file_states.h"
 #include "morphbake/batch/isolated_process.h"
+#include "morphbake/diagnostics/observer.h"
 #include "morphbake/files/file_lock.h"
 #include "morphbake/files/files.h"
 #include "morphbake/json/json.h"
@@ -37,10 +38,13 @@ int shard_of(const std::string& hash, int count) {
 }
 
 /// The entries of a list that are in a shard: those that share a connectivity are in one.
+///
+/// @throws Cancelled
 std::vector<std::size_t> entries_in(const Shard& shard, const Manifest& manifest,
-                                    ConnectivityKeys& keys) {
+                                    ConnectivityKeys& keys, const BatchObserver& observer) {
   std::vector<std::size_t> entries;
   for (std::size_t i = 0; i < manifest.names.size(); ++i) {
+    if (observer.is_cancelled && observer.is_cancelled()) throw Cancelled();
     if (shard.count > 1) {
       const std::string key = keys.of(entry_of(manifest, i));
       const std::string hash = key.empty() ? content_hash(manifest.names[i]) : key;
@@ -84,7 +88,7 @@ class BatchRun {
         folder_(make_batch_folder(options.folder)),
         report_(report_file(folder_, options.shard)),
         earlier_(read_reports()),
-        chosen_(entries_in(options.shard, manifest, keys_)),
+        chosen_(entries_in(options.shard, manifest, keys_, observer)),
         queue_(chosen_),
         processes_({options.timeout, options.memory * 1e9}) {
     progress_.total = chosen_.size();
@@ -312,7 +316,14 @@ BatchResult BatchRun::run() {
 
 BatchResult run_batch(const Manifest& manifest, const BatchOptions& options,
                       const BatchObserver& observer) {
-  return BatchRun(manifest, options, observer).run();
+  try {
+    return BatchRun(manifest, options, observer).run();
+  } catch (const Cancelled&) {  // before anything was begun
+    BatchResult nothing;
+    nothing.progress.total = manifest.names.size();
+    nothing.is_interrupted = true;
+    return nothing;
+  }
 }
 
 }  // namespace morphbake
