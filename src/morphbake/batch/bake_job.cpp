@@ -200,7 +200,8 @@ JobResult run_job(const BakeJob& job, const BatchOptions& options,
     result.record.problems = {bug(job.entry, error.what())};
   }
   const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - began;
-  result.record.seconds = seconds.count();
+  const bool is_as_before = result.kind == JobResult::Kind::Unchanged;
+  result.record.seconds = is_as_before ? job.before->seconds : seconds.count();
   return result;
 }
 

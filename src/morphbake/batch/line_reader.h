@@ -10,7 +10,7 @@ namespace morphbake {
 /// Reads a text file line by line, of which none is kept and none may be endless.
 class LineReader {
  public:
-  static constexpr std::size_t kLongest = std::size_t{1} << 20;  ///< bytes of a line
+  static constexpr std::size_t kLongest = std::size_t{16} << 20;  ///< bytes of a line
 
   /// @throws BakeError "files.missing", "files.not-a-file", "files.unreadable"
   explicit LineReader(const std::filesystem::path& file);

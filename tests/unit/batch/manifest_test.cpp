@@ -53,7 +53,7 @@ TEST(Manifest, RefusesOneNameForTwo) {
 }
 
 TEST(Manifest, RefusesAnEndlessLine) {
-  EXPECT_THAT(faults("\"a.json\"\n\"" + std::string(2000000, 'x') + "\"\n\"b.json\""),
+  EXPECT_THAT(faults("\"a.json\"\n\"" + std::string(17000000, 'x') + "\"\n\"b.json\""),
               AllOf(HasSubstr("list.jsonl:2:"), HasSubstr("[batch.line-too-long]")));
 }
 
@@ -100,8 +100,10 @@ TEST(Manifest, ReadsAList) {
 
 TEST(Manifest, ReadsALineOfAReport) {
   const test::BatchFolder folder;
-  const auto list = folder.write(
-      "failures.jsonl", R"({"name":"a","state":"failed","recipe":"../a.json","problems":[]})");
+  const auto list =
+      folder.write("failures.jsonl",
+                   R"({"name":"a","state":"failed","recipe":"../a.json","problems":[],"log":")" +
+                       std::string(4096, 'x') + "\"}");
   const Manifest manifest = read_manifest(list, {});
   EXPECT_THAT(manifest.names, ElementsAre("a"));
   EXPECT_EQ(entry_of(manifest, 0).recipe, folder.path() / "../a.json");
