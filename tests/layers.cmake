@@ -24,7 +24,7 @@ set(OWNERS
     "^draco/=gltf"
     "^CLI/=cli"
     "^xxhash\\.h$=cache"
-    "^(fcntl|link|unistd|signal|sys/.*)(\\.h)?$=files cache cli")
+    "^(fcntl|fnmatch|link|poll|unistd|signal|sys/.*)(\\.h)?$=files cache batch cli")
 
 set(breaches "")
 function(breach file text)

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "cli/exit_code.h"
 #include "cli/terminal.h"
 #include "morphbake/cache/stage_cache.h"
 #include "morphbake/diff/diff_options.h"
@@ -16,16 +17,18 @@
 
 namespace morphbake::cli {
 
-/// A command of the program: how it is written, and what it does when it was. One of both.
+/// A command of the program: how it is written, and what it does when it was: one of these.
 struct Command {
   CLI::App* parser = nullptr;
   std::function<void(Terminal&)> run;
   std::function<bool(Terminal&)> judge = {};  ///< exit code 0 when true, 1 when not, 2 for errors
+  std::function<ExitCode(Terminal&)> conclude = {};  ///< has an exit code of its own
 };
 
 Command add_init(CLI::App& program);
 Command add_bake(CLI::App& program);
 Command add_plan(CLI::App& program);
+Command add_batch(CLI::App& program);
 Command add_validate(CLI::App& program);
 Command add_remesh(CLI::App& program);
 Command add_inspect(CLI::App& program);

@@ -243,7 +243,9 @@ std::string bake_key(const BakeKeys& keys) {
 
 std::vector<fs::path> files_read_by(const Recipe& recipe, InputFiles& files) {
   std::vector<fs::path> read;
-  for (const RecipePart& part : recipe.parts) read.push_back(part.file);
+  for (const RecipePart& part : recipe.parts) {
+    if (part.line == 0) read.push_back(part.file);  // the others are changes from a list
+  }
   for (const SourceRef& source : recipe.sources) {
     read.push_back(source.file);
     read.insert(read.end(), beside(source.file, files).begin(), beside(source.file, files).end());

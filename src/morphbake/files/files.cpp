@@ -29,6 +29,8 @@ namespace {
        "check that the folder is writable and has free space, or choose another with --output-dir");
 }
 
+constexpr std::size_t kTokenLetters = 16;
+
 /// "dir/name.gif" -> "dir/.name.3f2a9c01.tmp.gif"; the extension stays last because libraries
 /// choose by it.
 fs::path temporary_beside(const fs::path& path) {
@@ -37,6 +39,17 @@ fs::path temporary_beside(const fs::path& path) {
   // File names may have 255 bytes at most: a long name is cut, the token keeps it unique.
   const std::string stem = path.stem().string().substr(0, 180);
   return path.parent_path() / fmt::format(".{}.{}.tmp{}", stem, token, path.extension().string());
+}
+
+/// Whether temporary_beside() calls a file so.
+bool is_temporary_name(const std::string& name) {
+  const std::size_t end = name.rfind(".tmp");
+  if (!name.starts_with('.') || end == std::string::npos || end < kTokenLetters + 2) return false;
+  const std::string extension = name.substr(end + 4);
+  if (!extension.empty() && extension.front() != '.') return false;
+  const std::string token = name.substr(end - kTokenLetters, kTokenLetters);
+  return name[end - kTokenLetters - 1] == '.' &&
+         token.find_first_not_of("0123456789abcdef") == std::string::npos;
 }
 
 /// @param shown  what messages call the file
@@ -143,6 +156,17 @@ void replace_unsynced(const fs::path& path, std::string_view bytes) {
     std::error_code ignored;
     fs::remove(temporary, ignored);
     throw;
+  }
+}
+
+void remove_temporaries(const fs::path& folder) {
+  std::error_code error;
+  fs::directory_iterator entry(folder, error);
+  while (!error && entry != fs::directory_iterator()) {
+    std::error_code ignored;
+    const bool is_file = entry->symlink_status(ignored).type() == fs::file_type::regular;
+    if (is_file && is_temporary_name(entry->path().filename())) fs::remove(entry->path(), ignored);
+    entry.increment(error);
   }
 }
 

@@ -32,6 +32,10 @@ std::filesystem::path inside_folder(const std::filesystem::path& folder, std::st
 /// @throws BakeError "output.unwritable"
 void replace_unsynced(const std::filesystem::path& path, std::string_view bytes);
 
+/// Removes what PendingOutputs of processes that were killed have left in a folder. Nobody may be
+/// writing there.
+void remove_temporaries(const std::filesystem::path& folder);
+
 /// Outputs that appear together or not at all.
 ///
 /// Each staged file is written under a random temporary name beside its final one; commit() renames
