@@ -73,7 +73,8 @@ void leave_evidence(const GoldenRun& run, const fs::path& made, GoldenOutput& ou
 
 /// Compares a new file with the stored one.
 void judge(const GoldenRun& run, const fs::path& made, GoldenOutput& output) {
-  if (!fs::exists(output.golden)) {
+  std::error_code error;
+  if (!fs::exists(output.golden, error)) {
     output.verdict = GoldenVerdict::Missing;
     return;
   }

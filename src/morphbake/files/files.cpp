@@ -86,9 +86,18 @@ void write_new_file(const fs::path& path, std::string_view bytes, const fs::path
   if (::close(descriptor) != 0 || !synced) fail_to_write(shown, error);
 }
 
+/// What is at a place that is to be written; nothing may be.
+fs::file_status status_of(const fs::path& path) {
+  std::error_code error;
+  const fs::file_status status = fs::status(path, error);
+  const bool is_known = !error || status.type() == fs::file_type::not_found;
+  if (!is_known) fail_to_write(path, error.value());  // links that lead round in circles
+  return status;
+}
+
 /// Makes the folder of `path` and records what it had to make, innermost last.
 void make_folders(const fs::path& folder, std::vector<fs::path>& made) {
-  if (folder.empty() || fs::is_directory(folder)) return;
+  if (folder.empty() || status_of(folder).type() == fs::file_type::directory) return;
   make_folders(folder.parent_path(), made);
   std::error_code error;
   if (fs::create_directory(folder, error)) made.push_back(folder);
@@ -180,13 +189,15 @@ PendingOutputs::~PendingOutputs() {
 
 fs::path PendingOutputs::stage_external(const fs::path& path) {
   make_folders(path.parent_path(), made_folders_);
-  if (fs::is_directory(path)) fail_to_write(path, EISDIR);
-  if (fs::exists(path) && !fs::is_regular_file(path)) {
+  const fs::file_status status = status_of(path);
+  if (fs::is_directory(status)) fail_to_write(path, EISDIR);
+  if (fs::exists(status) && !fs::is_regular_file(status)) {
     fail("output.unwritable", path, "this is a device or pipe, which no file may replace",
          "choose the name of a file");
   }
   // A link stays a link: what it names is replaced.
-  const fs::path target = fs::is_symlink(path) ? fs::weakly_canonical(path) : path;
+  std::error_code error;
+  const fs::path target = fs::is_symlink(path, error) ? fs::weakly_canonical(path) : path;
   entries_.push_back({temporary_beside(target), target});
   return entries_.back().temporary;
 }

@@ -157,7 +157,8 @@ void check_uris(const GltfDocument& document, const char* array) {
               fmt::format("the URI \"{}\" leaves the folder of the glTF", uri),
               "put the file beside the glTF and name it by a relative path");
     }
-    if (!fs::is_regular_file(target)) {
+    std::error_code error;
+    if (!fs::is_regular_file(target, error)) {
       fail_at(document, pointer, "gltf.missing-file", fmt::format("there is no file \"{}\"", uri),
               "a .gltf needs its .bin and textures beside it; a .glb holds everything");
     }

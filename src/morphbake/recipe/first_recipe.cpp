@@ -50,7 +50,8 @@ std::string common_landmark(const std::vector<fs::path>& sources) {
   std::vector<std::vector<Landmark>> landmarks;
   for (const fs::path& source : sources) {
     const fs::path beside = landmarks_beside(source);
-    if (!fs::exists(beside)) return "";
+    std::error_code error;
+    if (!fs::exists(beside, error)) return "";
     landmarks.push_back(read_landmarks(beside, beside.string()));
   }
   for (const Landmark& each : landmarks.front()) {
@@ -107,7 +108,8 @@ void check_sources(const std::vector<fs::path>& sources) {
                         "name two or more glTF files"});
   }
   for (const fs::path& source : sources) {
-    if (fs::is_regular_file(source)) continue;
+    std::error_code error;
+    if (fs::is_regular_file(source, error)) continue;
     problems.push_back({Severity::Error,
                         "recipe.missing-file",
                         {source.string(), ""},
