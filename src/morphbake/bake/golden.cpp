@@ -73,8 +73,8 @@ void leave_evidence(const GoldenRun& run, const fs::path& made, GoldenOutput& ou
 
 /// Compares a new file with the stored one.
 void judge(const GoldenRun& run, const fs::path& made, GoldenOutput& output) {
-  std::error_code error;
-  if (!fs::exists(output.golden, error)) {
+  std::error_code ignored;
+  if (!fs::exists(output.golden, ignored)) {
     output.verdict = GoldenVerdict::Missing;
     return;
   }
