@@ -82,7 +82,7 @@ std::string shown_error(const CLI::App& program, const CLI::ParseError& error,
 void add_global_flags(CLI::App& program, GlobalFlags& flags) {
   program.fallthrough();  // global flags may also follow the command
   program.require_subcommand(1);
-  program.set_version_flag("--version", version(), "Print the version");
+  program.set_version_flag("--version", version_with_commit(), "Print the version");
   program.add_option("--log", flags.log, "What goes to stderr: text, or json (an object a line)")
       ->check(CLI::IsMember({"text", "json"}))
       ->capture_default_str();
@@ -140,7 +140,7 @@ ExitCode run_program(int argc, char** argv, Terminal& terminal) {
   try {
     program.parse(argc, argv);
   } catch (const CLI::CallForVersion&) {
-    terminal.result(fmt::format("morphbake {}", version()));
+    terminal.result(fmt::format("morphbake {}", version_with_commit()));
     return ExitCode::Done;
   } catch (const CLI::CallForHelp&) {
     terminal.result(program.help());
