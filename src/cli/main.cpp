@@ -1,6 +1,7 @@
 #include <fmt/core.h>
 
 #include <exception>
+#include <functional>
 #include <new>
 #include <string_view>
 
@@ -32,6 +33,8 @@ Examples:
   morphbake golden recipe.json               bakes, and compares with results that were accepted
   morphbake landmarks suggest a.glb b.glb    points that correspond, with pictures
   morphbake config                           every option with its default
+  source <(morphbake completion bash)        completes command lines in this shell
+  morphbake manual | man -l -                all of this, and each command's own
 
 Results go to stdout, everything else to stderr. NO_COLOR is respected.
 Exit codes: 0 done, 1 bug, 2 usage or recipe, 4 source mesh, 5 numerical,
@@ -73,10 +76,11 @@ std::string shown_error(const CLI::App& program, const CLI::ParseError& error,
                         std::string_view command_word) {
   if (!program.get_subcommands().empty()) return error.what();
   if (command_word.empty()) return "no command given";
-  return "'" + std::string(command_word) +
-         "' is no command; there are init, bake, validate, remesh, inspect, lint, preview, diff, "
-         "golden, "
-         "landmarks, config";
+  std::string names;
+  for (const CLI::App* command : program.get_subcommands(std::function<bool(const CLI::App*)>())) {
+    names += (names.empty() ? "" : ", ") + command->get_name();
+  }
+  return fmt::format("'{}' is no command; there are {}", command_word, names);
 }
 
 void add_global_flags(CLI::App& program, GlobalFlags& flags) {
@@ -136,7 +140,8 @@ ExitCode run_program(int argc, char** argv, Terminal& terminal) {
   const std::vector<Command> commands = {
       add_init(program),    add_bake(program),      add_validate(program), add_remesh(program),
       add_inspect(program), add_lint(program),      add_preview(program),  add_diff(program),
-      add_golden(program),  add_landmarks(program), add_config(program)};
+      add_golden(program),  add_landmarks(program), add_config(program),   add_completion(program),
+      add_manual(program)};
   try {
     program.parse(argc, argv);
   } catch (const CLI::CallForVersion&) {
