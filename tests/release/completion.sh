@@ -88,12 +88,9 @@ offers "face.glb" morphbake inspect f
 if [ -e /usr/share/bash-completion/bash_completion ]; then
   mkdir -p "$scratch/share/bash-completion/completions"
   cp "$scratch/morphbake" "$scratch/share/bash-completion/completions/morphbake"
-  printf '%s\n' 'PS1=; . /usr/share/bash-completion/bash_completion' $'echo morphbake insp\tfa\t' >keys
-  cat >rc <<'RC'
-. /usr/share/bash-completion/bash_completion
-RC
+  printf '%s\n' 'stty cols 200' "PS1='> '" '. /usr/share/bash-completion/bash_completion' >rc
   { sleep 1; printf 'morphbake insp\tfa\t--js\t\n'; sleep 1; printf 'exit\n'; } |
-    XDG_DATA_DIRS="$scratch/share" TERM=dumb PATH="$scratch/bin:$PATH" timeout 20 \
+    XDG_DATA_DIRS="$scratch/share" TERM=dumb timeout 20 \
       script -qec 'bash --noprofile --rcfile rc -i' /dev/null >"$scratch/typed" 2>&1
   grep -q 'morphbake inspect face.glb --json' "$scratch/typed" || wrong "TAB completes nothing: $(cat -v "$scratch/typed")"
 else

@@ -26,7 +26,8 @@ offers "morphbake bake --preview " none recipe '!recipe.json'
 offers "morphbake bake recipe.json -o " shapes/ '!notes.txt'
 offers "morphbake bake recipe.json --set /solve/tol" /solve/tolerance=
 offers "morphbake inspect " face.glb
-offers "morphbake lint face.glb --profile " web-three
+offers "morphbake lint face.glb --profile " web-three recipe.json
+offers "morphbake bake --threads " '!recipe.json'
 offers "morphbake landmarks " suggest show '!bake'
 offers "morphbake landmarks suggest --" --count --force
 finish
