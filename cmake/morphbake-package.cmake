@@ -19,13 +19,14 @@ set(CPACK_DEBIAN_PACKAGE_RELEASE 1)
 set(CPACK_DEBIAN_PACKAGE_SECTION graphics)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)
-set(CPACK_COMPONENT_PROGRAM_DESCRIPTION "bakes local shape morphs into glTF
- A JSON recipe says which part of which mesh turns into which other mesh, and
- when. morphbake gives the meshes one connectivity, blends them region by
- region and writes a .glb with morph targets and a weights animation, which
- plays in web browsers, engines and modelling programs, with turntable
- previews as GIF and PNG. Other commands compare, check and show any glTF file
- with morph targets.")
+set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "bakes local shape morphs into glTF")
+set(CPACK_COMPONENT_PROGRAM_DESCRIPTION
+    "A JSON recipe says which part of which mesh turns into which other mesh, and
+when. morphbake gives the meshes one connectivity, blends them region by
+region and writes a .glb with morph targets and a weights animation, which
+plays in web browsers, engines and modelling programs, with turntable
+previews as GIF and PNG. Other commands compare, check and show any glTF file
+with morph targets.")
 if(PROJECT_IS_TOP_LEVEL AND NOT BUILD_SHARED_LIBS) # a program that is whole by itself
   include(CPack)
 endif()
