@@ -19,11 +19,11 @@ struct FileType {
   std::vector<std::string> endings;
 };
 
-const FileType kFileTypes[] = {{"glTF", {"glb", "gltf"}}, {".glb", {"glb", "gltf"}},
-                               {"JSON", {"json"}},        {".json", {"json"}},
-                               {".jsonl", {"jsonl"}},     {"JSON lines", {"jsonl"}},
-                               {"JSON-lines", {"jsonl"}}, {".png", {"png"}},
-                               {"XML", {"xml"}},          {".html", {"html"}}};
+const FileType kFileTypes[] = {
+    {"glTF", {"glb", "gltf"}}, {".glb", {"glb", "gltf"}}, {"JSON", {"json"}},
+    {".json", {"json"}},       {".jsonl", {"jsonl"}},     {"JSON lines", {"jsonl"}},
+    {"JSON-lines", {"jsonl"}}, {".png", {"png"}},         {"XML", {"xml"}},
+    {".html", {"html"}},       {".csv", {"csv"}}};
 
 /// "a", "b" of "TEXT:{a,b}": what CLI::IsMember says of itself.
 std::vector<std::string> choices_in(const std::string& type) {
@@ -50,7 +50,8 @@ std::vector<std::string> settable_pointers() {
 }
 
 bool is_folder(const CLI::Option& option) {
-  const std::string name = option.get_name(true, true), text = option.get_description();
+  const std::string name = option.get_name(true, true);
+  const std::string& text = option.get_description();
   return name.find("-dir") != std::string::npos || text.find("folder") != std::string::npos ||
          text.find("Folder") != std::string::npos;
 }

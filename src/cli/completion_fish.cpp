@@ -60,10 +60,10 @@ std::string lines_of(const ExpectedCommand& command, const std::vector<ExpectedC
   const std::string start = "complete -c morphbake -n " + quoted(condition_of(command));
   std::string lines;
   for (const std::string& word : command.commands) {
-    const std::string name = (command.name.empty() ? "" : command.name + " ") + word;
+    const std::string name = command.name.empty() ? word : command.name + " " + word;
     for (const ExpectedCommand& other : all) {
-      if (other.name == name)
-        lines += start + " -a " + word + " -d " + quoted(other.description) + "\n";
+      if (other.name != name) continue;
+      lines += fmt::format("{} -a {} -d {}\n", start, word, quoted(other.description));
     }
   }
   for (const ExpectedOption& option : command.options) lines += option_line(start, option);
