@@ -20,7 +20,7 @@ if [ "${MORPHBAKE_OWN_MOUNTS-}" != yes ]; then
 fi
 rm -rf "$scratch"
 mkdir -p "$scratch" "$kept/archives"
-trap 'umount -l "$bare/proc" 2>/dev/null; rm -rf "$bare"' EXIT
+trap 'umount -l "$bare/proc" 2>/dev/null || true; rm -rf "$bare"' EXIT
 trap 'exit 1' INT TERM
 
 say "packing"
