@@ -36,8 +36,10 @@ struct Arguments {
 
 void add_arguments(CLI::App& parser, Arguments& arguments) {
   parser.add_option("FILE", arguments.file, "A .glb or .gltf file, whoever wrote it");
-  parser.add_option("--profile", arguments.profile,
-                    "The client: a name of --list, or the path of a .json file");
+  parser
+      .add_option("--profile", arguments.profile,
+                  "The client: a name of --list, or the path of a .json file")
+      ->type_name("PROFILE");
   parser.add_option("--node", arguments.node,
                     "The node whose mesh is meant, by its name in the file or its index from 0 "
                     "(default: all meshes with morph targets)");

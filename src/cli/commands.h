@@ -15,6 +15,16 @@
 #include "morphbake/gltf/mesh_choice.h"
 #include "morphbake/recipe/recipe.h"
 
+namespace CLI::detail {
+
+/// Help and shell completion tell files from other texts.
+template <>
+constexpr const char* type_name<std::filesystem::path>() {
+  return "PATH";
+}
+
+}  // namespace CLI::detail
+
 namespace morphbake::cli {
 
 /// A command of the program: how it is written, and what it does when it was: one of these.
@@ -39,6 +49,8 @@ Command add_golden(CLI::App& program);
 Command add_landmarks(CLI::App& program);
 Command add_cache(CLI::App& program);
 Command add_config(CLI::App& program);
+Command add_completion(CLI::App& program);
+Command add_manual(CLI::App& program);
 
 /// The option `--set /POINTER=VALUE`, which may be repeated.
 void add_settings(CLI::App& parser, std::vector<std::string>& settings);

@@ -1,6 +1,7 @@
 #include <fmt/core.h>
 
 #include <exception>
+#include <functional>
 #include <new>
 #include <string_view>
 
@@ -35,6 +36,8 @@ Examples:
   morphbake landmarks suggest a.glb b.glb    points that correspond, with pictures
   morphbake cache                            how much is kept for later bakes, and where
   morphbake config                           every option with its default
+  source <(morphbake completion bash)        completes command lines in this shell
+  morphbake manual | man -l -                all of this, and each command's own
 
 Results go to stdout, everything else to stderr. NO_COLOR is respected.
 Exit codes: 0 done, 1 bug, 2 usage or recipe, 3 some recipes of a batch failed,
@@ -76,16 +79,17 @@ std::string shown_error(const CLI::App& program, const CLI::ParseError& error,
                         std::string_view command_word) {
   if (!program.get_subcommands().empty()) return error.what();
   if (command_word.empty()) return "no command given";
-  return "'" + std::string(command_word) +
-         "' is no command; there are init, bake, plan, batch, validate, remesh, inspect, lint, "
-         "preview, "
-         "diff, golden, landmarks, cache, config";
+  std::string names;
+  for (const CLI::App* command : program.get_subcommands(std::function<bool(const CLI::App*)>())) {
+    names += (names.empty() ? "" : ", ") + command->get_name();
+  }
+  return fmt::format("'{}' is no command; there are {}", command_word, names);
 }
 
 void add_global_flags(CLI::App& program, GlobalFlags& flags) {
   program.fallthrough();  // global flags may also follow the command
   program.require_subcommand(1);
-  program.set_version_flag("--version", version(), "Print the version");
+  program.set_version_flag("--version", version_with_commit(), "Print the version");
   program.add_option("--log", flags.log, "What goes to stderr: text, or json (an object a line)")
       ->check(CLI::IsMember({"text", "json"}))
       ->capture_default_str();
@@ -137,14 +141,14 @@ ExitCode run_program(int argc, char** argv, Terminal& terminal) {
   GlobalFlags flags;
   add_global_flags(program, flags);
   const std::vector<Command> commands = {
-      add_init(program),     add_bake(program),   add_plan(program),    add_batch(program),
-      add_validate(program), add_remesh(program), add_inspect(program), add_lint(program),
-      add_preview(program),  add_diff(program),   add_golden(program),  add_landmarks(program),
-      add_cache(program),    add_config(program)};
+      add_init(program),     add_bake(program),   add_plan(program),       add_batch(program),
+      add_validate(program), add_remesh(program), add_inspect(program),    add_lint(program),
+      add_preview(program),  add_diff(program),   add_golden(program),     add_landmarks(program),
+      add_cache(program),    add_config(program), add_completion(program), add_manual(program)};
   try {
     program.parse(argc, argv);
   } catch (const CLI::CallForVersion&) {
-    terminal.result(fmt::format("morphbake {}", version()));
+    terminal.result(fmt::format("morphbake {}", version_with_commit()));
     return ExitCode::Done;
   } catch (const CLI::CallForHelp&) {
     terminal.result(program.help());

@@ -13,6 +13,10 @@ done <"$scratch/stdout"
 [ "$(wc -l <"$scratch/stdout")" = "$(find out -type f | wc -l)" ] || wrong "stdout does not name every file"
 stderr_has "4 vertices"
 jq -e '.outputs | length == 1' out/report.json >/dev/null || wrong "odd report"
+run 0 --version
+[ "morphbake $(jq -r .morphbake out/report.json)" = "$(cat "$scratch/stdout")" ] || wrong "the report is of another version"
+# The commit changes no byte of what is baked.
+grep -aqE '"generator":"morphbake [0-9]+\.[0-9]+\.[0-9]+"' out/tetrahedra.glb || wrong "the file does not tell the plain version"
 
 run 0 bake "$3" --preview none -o quiet --quiet
 [ -s "$scratch/stderr" ] && wrong "--quiet prints on stderr"

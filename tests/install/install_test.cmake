@@ -48,7 +48,11 @@ run(${prefix}/bin/morphbake golden ${ROOT}/tests/cli/good_recipe/recipe.json --g
     ${SCRATCH}/consumer/golden --accept)
 golden_test_is(TRUE)
 foreach(file IN ITEMS share/morphbake/schemas/recipe.schema.json share/morphbake/config/bake.json
-                        share/morphbake/config/profiles/web-three.json)
+                        share/morphbake/config/profiles/web-three.json share/man/man1/morphbake.1
+                        share/bash-completion/completions/morphbake share/fish/vendor_completions.d/morphbake.fish
+                        share/doc/morphbake/copyright share/doc/morphbake/docs/recipe.md
+                        share/doc/morphbake/schemas/recipe.schema.json share/doc/morphbake/examples/01_nose/recipe.json
+                        share/doc/morphbake/licences/libcgal-dev)
   if(EXISTS ${ROOT}/schemas AND NOT EXISTS ${prefix}/${file})
     message(SEND_ERROR "not installed: ${file}")
   endif()

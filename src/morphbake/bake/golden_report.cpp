@@ -57,7 +57,7 @@ Json to_json(const GoldenOutput& output) {
 
 std::string golden_json(const std::vector<GoldenRecipe>& recipes) {
   Json json;
-  json["morphbake"] = version();
+  json["morphbake"] = version_with_commit();
   json["same"] = is_golden(recipes);
   json["recipes"] = Json::array();
   for (const GoldenRecipe& recipe : recipes) {

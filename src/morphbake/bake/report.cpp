@@ -161,7 +161,7 @@ Json to_json(const ConnectivityReport& report) {
 }  // namespace
 
 std::string report_to_json(const BakeReport& report) {
-  Json json = {{"morphbake", version()},
+  Json json = {{"morphbake", version_with_commit()},
                {"recipe", report.recipe},
                {"vertices", report.vertices},
                {"triangles", report.triangles},
@@ -177,7 +177,7 @@ std::string report_to_json(const BakeReport& report) {
 }
 
 std::string report_to_json(const RemeshReport& report) {
-  Json json = {{"morphbake", version()},
+  Json json = {{"morphbake", version_with_commit()},
                {"recipe", report.recipe},
                {"connectivity", to_json(report.connectivity)}};
   json["files"] = Json::array();

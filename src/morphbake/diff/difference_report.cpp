@@ -53,7 +53,7 @@ Json to_json(const MeshDifference& mesh) {
 
 std::string difference_json(const FileDifference& difference) {
   Json json;
-  json["morphbake"] = version();
+  json["morphbake"] = version_with_commit();
   json["same"] = is_same(difference);
   json["files"] = {difference.file_a, difference.file_b};
   json["findings"] = to_json(difference.findings);
