@@ -23,7 +23,8 @@ set(OWNERS
     "^meshoptimizer\\.h$=gltf export"
     "^draco/=gltf"
     "^CLI/=cli"
-    "^(fcntl|unistd|signal|sys/.*)(\\.h)?$=files cli")
+    "^xxhash\\.h$=cache"
+    "^(fcntl|fnmatch|link|poll|unistd|signal|sys/.*)(\\.h)?$=files cache batch cli")
 
 set(breaches "")
 function(breach file text)

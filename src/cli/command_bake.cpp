@@ -22,6 +22,7 @@ struct Arguments {
   std::filesystem::path report;
   int threads = 0;
   std::optional<double> memory_limit;
+  CacheArguments cache;
 };
 
 constexpr double kMostGigabytes = 1e6;  // as the schema of the options says
@@ -78,6 +79,9 @@ std::vector<std::string> summary_lines(const BakeReport& report) {
   for (const StageReport& stage : report.stages) {
     lines.push_back(fmt::format("  {:<14}{:8.2f} s", stage.name, stage.seconds));
   }
+  if (!report.cached.empty()) {
+    lines.push_back(fmt::format("  from the cache: {}", shown_names(report.cached)));
+  }
   for (const OutputReport& output : report.outputs) {
     lines.push_back(
         fmt::format("  {}: {}", output.file.filename().string(), shown_bytes(output.bytes)));
@@ -123,7 +127,7 @@ void run_bake(const Arguments& arguments, Terminal& terminal) {
   if (arguments.preview == "none") recipe.preview.reset();
   if (!arguments.report.empty()) check_report(recipe, arguments.report);
 
-  const BakeReport report = bake(recipe, options, terminal.observer());
+  const BakeReport report = bake(recipe, options, cache_of(arguments.cache), terminal.observer());
   for (const OutputReport& output : report.outputs) {
     terminal.result(output.file.string());
     for (const std::filesystem::path& preview : output.previews) terminal.result(preview.string());
@@ -158,6 +162,7 @@ Command add_bake(CLI::App& program) {
       ->add_option("--memory-limit", arguments->memory_limit,
                    "GB: morphs whose factor would take more are solved without; slower")
       ->check(not_a_size);
+  add_cache_options(*parser, arguments->cache);
   parser->footer(
       "\nExample: morphbake bake recipe.json --output-dir out --set /basis/easing_tolerance=1e-7");
   return {parser, [arguments](Terminal& terminal) { run_bake(*arguments, terminal); }};

@@ -8,22 +8,27 @@
 #include <string>
 #include <vector>
 
+#include "cli/exit_code.h"
 #include "cli/terminal.h"
+#include "morphbake/cache/stage_cache.h"
 #include "morphbake/diff/diff_options.h"
 #include "morphbake/gltf/mesh_choice.h"
 #include "morphbake/recipe/recipe.h"
 
 namespace morphbake::cli {
 
-/// A command of the program: how it is written, and what it does when it was. One of both.
+/// A command of the program: how it is written, and what it does when it was: one of these.
 struct Command {
   CLI::App* parser = nullptr;
   std::function<void(Terminal&)> run;
   std::function<bool(Terminal&)> judge = {};  ///< exit code 0 when true, 1 when not, 2 for errors
+  std::function<ExitCode(Terminal&)> conclude = {};  ///< has an exit code of its own
 };
 
 Command add_init(CLI::App& program);
 Command add_bake(CLI::App& program);
+Command add_plan(CLI::App& program);
+Command add_batch(CLI::App& program);
 Command add_validate(CLI::App& program);
 Command add_remesh(CLI::App& program);
 Command add_inspect(CLI::App& program);
@@ -32,10 +37,24 @@ Command add_preview(CLI::App& program);
 Command add_diff(CLI::App& program);
 Command add_golden(CLI::App& program);
 Command add_landmarks(CLI::App& program);
+Command add_cache(CLI::App& program);
 Command add_config(CLI::App& program);
 
 /// The option `--set /POINTER=VALUE`, which may be repeated.
 void add_settings(CLI::App& parser, std::vector<std::string>& settings);
+
+/// Where results of stages are looked for and kept, as the command line says.
+struct CacheArguments {
+  std::string folder;  ///< "none": nowhere; empty: the user's own
+  double gigabytes = 10;
+};
+
+/// The options `--cache` and `--cache-limit`, which MORPHBAKE_CACHE and MORPHBAKE_CACHE_LIMIT may
+/// say as well.
+void add_cache_options(CLI::App& parser, CacheArguments& arguments);
+
+/// The cache of a run. The user's own is left out where it cannot be made.
+StageCache cache_of(const CacheArguments& arguments);
 
 /// The option `--node NAME`: whose mesh of a file is meant.
 void add_node(CLI::App& parser, std::string& node);

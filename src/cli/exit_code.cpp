@@ -9,7 +9,7 @@ namespace {
 
 using ModuleExitCode = std::pair<std::string_view, ExitCode>;
 
-constexpr std::array<ModuleExitCode, 25> kExitCodes = {{
+constexpr std::array<ModuleExitCode, 26> kExitCodes = {{
     {"usage", ExitCode::Recipe},
     {"options", ExitCode::Recipe},
     {"landmarks", ExitCode::Recipe},
@@ -19,6 +19,7 @@ constexpr std::array<ModuleExitCode, 25> kExitCodes = {{
     {"schema", ExitCode::Recipe},
     {"files", ExitCode::Recipe},
     {"derive", ExitCode::Recipe},
+    {"batch", ExitCode::Recipe},
     {"gltf", ExitCode::SourceMesh},
     {"mesh", ExitCode::SourceMesh},
     {"sources", ExitCode::SourceMesh},

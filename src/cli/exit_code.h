@@ -12,6 +12,7 @@ enum class ExitCode {
   Done = 0,
   Bug = 1,
   Recipe = 2,  ///< or usage
+  SomeFailed = 3,  ///< of the recipes of a batch
   SourceMesh = 4,
   Numerical = 5,
   CannotWrite = 6,

@@ -23,6 +23,8 @@ Examples:
   morphbake init egg.glb giraffe.glb         a first recipe: recipe.json
   morphbake validate recipe.json             what is wrong with it, all at once
   morphbake bake recipe.json -o out          the morph; prints the files it wrote
+  morphbake plan recipe.json --explain       what a bake would do anew, and why
+  morphbake batch 'library/*/recipe.json'    a whole library, in parallel; goes on where it was
   morphbake remesh recipe.json -o same       the sources on one new connectivity
   morphbake inspect out/morph.glb            targets, sizes, bounds
   morphbake preview out/morph.glb            turntable of any morph glTF
@@ -31,11 +33,12 @@ Examples:
   morphbake diff old.glb new.glb             whether both show the same motion, and where not
   morphbake golden recipe.json               bakes, and compares with results that were accepted
   morphbake landmarks suggest a.glb b.glb    points that correspond, with pictures
+  morphbake cache                            how much is kept for later bakes, and where
   morphbake config                           every option with its default
 
 Results go to stdout, everything else to stderr. NO_COLOR is respected.
-Exit codes: 0 done, 1 bug, 2 usage or recipe, 4 source mesh, 5 numerical,
-            6 cannot write, 130 interrupted; diff, golden, lint: 0 right, 1 wrong, 2 error
+Exit codes: 0 done, 1 bug, 2 usage or recipe, 3 some recipes of a batch failed,
+            4 source mesh, 5 numerical, 6 cannot write, 130 interrupted; diff, golden, lint: 0 right, 1 wrong, 2 error
 Documentation: docs/ and examples/ of the source; recipes: schemas/recipe.schema.json)";
 
 struct GlobalFlags {
@@ -74,9 +77,8 @@ std::string shown_error(const CLI::App& program, const CLI::ParseError& error,
   if (!program.get_subcommands().empty()) return error.what();
   if (command_word.empty()) return "no command given";
   return "'" + std::string(command_word) +
-         "' is no command; there are init, bake, validate, remesh, inspect, lint, preview, diff, "
-         "golden, "
-         "landmarks, config";
+         "' is no command; there are init, bake, plan, batch, validate, remesh, inspect, lint, preview, "
+         "diff, golden, landmarks, cache, config";
 }
 
 void add_global_flags(CLI::App& program, GlobalFlags& flags) {
@@ -134,9 +136,10 @@ ExitCode run_program(int argc, char** argv, Terminal& terminal) {
   GlobalFlags flags;
   add_global_flags(program, flags);
   const std::vector<Command> commands = {
-      add_init(program),    add_bake(program),      add_validate(program), add_remesh(program),
-      add_inspect(program), add_lint(program),      add_preview(program),  add_diff(program),
-      add_golden(program),  add_landmarks(program), add_config(program)};
+      add_init(program),   add_bake(program),    add_plan(program),      add_batch(program), add_validate(program),
+      add_remesh(program), add_inspect(program), add_lint(program),      add_preview(program),
+      add_diff(program),   add_golden(program),  add_landmarks(program), add_cache(program),
+      add_config(program)};
   try {
     program.parse(argc, argv);
   } catch (const CLI::CallForVersion&) {
@@ -154,6 +157,7 @@ ExitCode run_program(int argc, char** argv, Terminal& terminal) {
   for (const Command& command : commands) {
     if (!command.parser->parsed()) continue;
     if (command.judge) return judge(command, terminal);
+    if (command.conclude) return command.conclude(terminal);
     command.run(terminal);
   }
   return ExitCode::Done;

@@ -33,6 +33,34 @@ Json to_json(const Problem& problem) {
   return json;
 }
 
+Json to_json(const BatchProgress& progress) {
+  Json json = {{"done", progress.done},
+               {"failed", progress.failed},
+               {"unchanged", progress.unchanged},
+               {"total", progress.total},
+               {"per_second", progress.per_second}};
+  if (progress.seconds_left) json["seconds_left"] = *progress.seconds_left;
+  return json;
+}
+
+/// "40 s", "12 min", "3 h 20 min"
+std::string shown_time(double seconds) {
+  if (seconds < 100) return fmt::format("{:.0f} s", seconds);
+  const auto minutes = static_cast<long long>(seconds / 60 + 0.5);
+  return minutes < 100 ? fmt::format("{} min", minutes)
+                       : fmt::format("{} h {} min", minutes / 60, minutes % 60);
+}
+
+std::string shown(const BatchProgress& progress) {
+  std::string text = fmt::format("{} of {}", progress.done, progress.total);
+  if (progress.failed > 0) text += fmt::format(", {} failed", progress.failed);
+  if (progress.seconds_left && progress.done < progress.total) {
+    text += fmt::format(", {:.3g} a second, {} left", progress.per_second,
+                        shown_time(*progress.seconds_left));
+  }
+  return text;
+}
+
 /// `text` with its first "error:" in red or "warning:" in yellow.
 std::string coloured(std::string text, Severity severity) {
   const std::string_view word = severity == Severity::Error ? "error:" : "warning:";
@@ -98,6 +126,21 @@ void Terminal::progress(const Progress& progress) {
   } else if (is_new_stage) {
     print_log(stage_ + " ...");
   }
+}
+
+void Terminal::progress(const BatchProgress& progress) {
+  using std::chrono::milliseconds;
+  const auto now = std::chrono::steady_clock::now();
+  const bool is_json = settings_.log == LogFormat::Json;
+  const auto pause = milliseconds(settings_.show_bar ? 200 : is_json ? 1000 : 10000);
+  const bool is_last = progress.done == progress.total;
+  if (settings_.quiet || (!is_last && now - last_told_ < pause)) return;
+  last_told_ = now;
+  if (is_json) return print_log(one_line({{"severity", "info"}, {"batch", to_json(progress)}}));
+  stage_ = shown(progress);
+  if (!settings_.show_bar) return print_log(stage_);
+  const double total = std::max(1.0, static_cast<double>(progress.total));
+  draw_bar(static_cast<int>(100 * static_cast<double>(progress.done) / total));
 }
 
 void Terminal::report(std::string_view json_text, const std::vector<std::string>& lines) {

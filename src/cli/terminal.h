@@ -1,10 +1,12 @@
 #pragma once
 
+#include <chrono>
 #include <cstdio>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "morphbake/batch/run_batch.h"
 #include "morphbake/diagnostics/observer.h"
 
 namespace morphbake::cli {
@@ -38,6 +40,8 @@ class Terminal {
   /// Prints prose for people; nothing with --quiet.
   void note(std::string_view text);
   void progress(const Progress& progress);
+  /// How far a batch is: a bar on a terminal, else a line now and then.
+  void progress(const BatchProgress& progress);
   /// Tells what a bake did: `lines` for people, `json_text` as one object with severity "info" and
   /// report.
   void report(std::string_view json_text, const std::vector<std::string>& lines);
@@ -59,6 +63,7 @@ class Terminal {
   std::FILE* log_;
   std::string stage_;
   int percent_ = -1;
+  std::chrono::steady_clock::time_point last_told_;  ///< how far a batch is
   bool bar_is_drawn_ = false;
 };
 

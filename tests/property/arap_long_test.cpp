@@ -157,8 +157,10 @@ TEST(Rotation, KeepsLengthsAndAreasOfTwoMenAsWellAsArap) {
   if (!test::has_real_meshes()) GTEST_SKIP() << "needs the meshes of ../shared";
   const Observer nobody;
   AlignedSources loaded = load_aligned(recipe_of_pair("human_man--mh_male_young"), nobody);
+  const StageCache none;
+  BakeCache cache(none, loaded.recipe, nobody);
   const ConnectedSources connected =
-      connect_sources(loaded.recipe, std::move(loaded.sources), Measuring::Off, nobody);
+      connect_sources(loaded.recipe, std::move(loaded.sources), Measuring::Off, cache, {}, nobody);
   expect_as_good_as_arap(share_connectivity(connected.sources), {0.25, 0.5, 0.75});
 }
 

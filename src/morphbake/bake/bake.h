@@ -6,6 +6,7 @@
 
 #include "morphbake/bake/connectivity_report.h"
 #include "morphbake/bake/options.h"
+#include "morphbake/cache/stage_cache.h"
 #include "morphbake/diagnostics/observer.h"
 #include "morphbake/recipe/recipe.h"
 #include "morphbake/solve/solve_fields.h"
@@ -54,7 +55,8 @@ struct BakeReport {
   int frames = 0;
   ConnectivityReport connectivity;
   SolveReport solve;
-  std::vector<StageReport> stages;
+  std::vector<StageReport> stages;  ///< that ran
+  std::vector<std::string> cached;  ///< names of what was taken from the cache
   std::vector<OutputReport> outputs;
   std::vector<Problem> problems;  ///< warnings
 };
@@ -64,8 +66,11 @@ std::string report_to_json(const BakeReport& report);
 /// Bakes a recipe: one call a stage. All output files appear together at the end, or none; but
 /// sources that are not connected alike leave a picture of it, <first output>.mismatch.png.
 ///
+/// What the cache has is not made again, and the bytes are the same with it and without.
+/// @param cache  where results are looked for and kept; StageCache() for none
 /// @throws BakeError, Cancelled
-BakeReport bake(const Recipe& recipe, const BakeOptions& options, const Observer& observer);
+BakeReport bake(const Recipe& recipe, const BakeOptions& options, const StageCache& cache,
+                const Observer& observer);
 
 /// Checks names, sources, landmarks and topology without solving or writing.
 ///

@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "morphbake/bake/kept_stages.h"
 #include "morphbake/bake/source_surfaces.h"
 #include "morphbake/bake/stage_clock.h"
 #include "morphbake/connectivity/measure_triangulation.h"
@@ -82,29 +83,50 @@ TriangulationQuality measured(const Recipe& recipe, const RemeshedSources& remes
   return quality;
 }
 
+namespace {
+
+/// The sources' files on a new connectivity, and what is said of it.
+KeptConnectivity new_connectivity(const Recipe& recipe, const std::vector<SourceMesh>& sources,
+                                  Measuring measuring, const Observer& observer) {
+  StageClock clock(observer);
+  RemeshedSources remeshed = remesh_sources(recipe, sources, clock, observer);
+  KeptConnectivity connectivity;
+  connectivity.report.mode = recipe.connectivity.mode;
+  connectivity.report.repairs = repairs_of(remeshed);
+  connectivity.report.texture = texture_report(remeshed);
+  if (measuring == Measuring::On) {
+    clock.start("measure");
+    connectivity.report.quality = measured(recipe, remeshed, observer);
+  }
+  connectivity.report.steps = clock.finish();
+  connectivity.glbs = std::move(remeshed.files.glbs);
+  return connectivity;
+}
+
+}  // namespace
+
 ConnectedSources connect_sources(const Recipe& recipe, std::vector<SourceMesh> sources,
-                                 Measuring measuring, const Observer& observer) {
+                                 Measuring measuring, BakeCache& cache, const StageKey& key,
+                                 const Observer& observer) {
   ConnectedSources connected;
   connected.report.mode = recipe.connectivity.mode;
   if (recipe.connectivity.mode == ConnectivityMode::Shared) {
     connected.sources = std::move(sources);
     return connected;
   }
-  StageClock clock(observer);
-  const RemeshedSources remeshed = remesh_sources(recipe, sources, clock, observer);
-  connected.report.repairs = repairs_of(remeshed);
-  connected.report.texture = texture_report(remeshed);
-  if (measuring == Measuring::On) {
-    clock.start("measure");
-    connected.report.quality = measured(recipe, remeshed, observer);
-  }
-  clock.start("read");
+  KeptConnectivity made = taken_or_made(
+      cache, key, observer,
+      [&](const Observer& listening) {
+        return new_connectivity(recipe, sources, measuring, listening);
+      },
+      [](const KeptConnectivity& kept) { return entry_of(kept); },
+      [&](CacheEntry entry) { return connectivity_of(std::move(entry), sources.size()); });
   for (std::size_t s = 0; s < sources.size(); ++s) {
     connected.sources.push_back(read_source(
-        sources[s].name, open_gltf_bytes(remeshed.files.glbs[s], recipe.sources[s].file)));
+        sources[s].name, open_gltf_bytes(std::move(made.glbs[s]), recipe.sources[s].file)));
   }
   connected.originals = std::move(sources);
-  connected.report.steps = clock.finish();
+  connected.report = std::move(made.report);
   return connected;
 }
 

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "morphbake/bake/bake_cache.h"
 #include "morphbake/bake/connectivity_files.h"
 #include "morphbake/bake/connectivity_report.h"
 #include "morphbake/bake/stage_clock.h"
@@ -50,10 +51,12 @@ struct ConnectedSources {
 };
 
 /// New sources are read from the very bytes that `morphbake remesh` writes, so a bake gives the
-/// same from those files.
+/// same from those files. What the cache has is not made again.
 ///
+/// @param key  of the stage
 /// @throws BakeError as remesh_sources
 ConnectedSources connect_sources(const Recipe& recipe, std::vector<SourceMesh> sources,
-                                 Measuring measuring, const Observer& observer);
+                                 Measuring measuring, BakeCache& cache, const StageKey& key,
+                                 const Observer& observer);
 
 }  // namespace morphbake

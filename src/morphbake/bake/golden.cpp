@@ -115,7 +115,7 @@ GoldenRecipe run_recipe(const GoldenRun& run, PendingOutputs& accepted) {
     BakeOptions options =
         read_options(recipe.options, location_in(recipe, "/options").file, run.options.settings);
     options.threads = run.options.diff.threads;
-    for (const OutputReport& output : bake(recipe, options, run.observer).outputs) {
+    for (const OutputReport& output : bake(recipe, options, {}, run.observer).outputs) {
       made.push_back(output.file);
     }
   } catch (const BakeError& error) {

@@ -230,8 +230,8 @@ void check_profile(const SolvedRecipe& solved, std::size_t index, const OutputIn
 
 }  // namespace
 
-StagedOutput stage_output(const SolvedRecipe& solved, std::size_t index, const BakeOptions& options,
-                          const Observer& observer, PendingOutputs& outputs) {
+BakedOutput bake_output(const SolvedRecipe& solved, std::size_t index, const BakeOptions& options,
+                        const Observer& observer) {
   const Output& output = solved.recipe.outputs[index];
   warn_of_skin(solved, observer);
   const OutputInputs inputs{output, kind_of(output, solved.timeline), options, observer};
@@ -244,7 +244,7 @@ StagedOutput stage_output(const SolvedRecipe& solved, std::size_t index, const B
   if (has_targets && !output.profile) warn_of_targets(solved, index, written.all_targets, observer);
   check_profile(solved, index, inputs, written);
   check_bounds(solved.recipe, index, written.report, observer);
-  return {std::move(written.report), outputs.stage(output.file, written.bytes), written.node};
+  return {std::move(written.report), std::move(written.bytes), written.node};
 }
 
 }  // namespace morphbake

@@ -170,6 +170,7 @@ std::string report_to_json(const BakeReport& report) {
                {"connectivity", to_json(report.connectivity)},
                {"solve", to_json(report.solve)}};
   json["stages"] = to_json(report.stages);
+  json["cached"] = report.cached;
   json["outputs"] = list_of(report.outputs);
   json["problems"] = to_json(report.problems);
   return json.dump(2) + "\n";

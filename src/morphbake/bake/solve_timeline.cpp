@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "morphbake/bake/anchor_spike.h"
+#include "morphbake/bake/kept_stages.h"
 #include "morphbake/bake/timeline_changes.h"
 #include "morphbake/bake/timeline_system.h"
 #include "morphbake/json/json.h"
@@ -111,6 +112,12 @@ std::optional<SeparableTimeline> shapes_of(const Recipe& recipe, const RegionFie
   return std::nullopt;
 }
 
+template <typename Matrix>
+std::string hash_of(const Matrix& matrix) {
+  const auto* begin = reinterpret_cast<const char*>(matrix.data());
+  return content_hash({begin, static_cast<std::size_t>(matrix.size()) * sizeof(double)});
+}
+
 SolveReport report_of(const SolvedTimeline& solved, std::vector<SolveRecord> records) {
   const DisplacementSystem& system = *solved.states->displacements;
   SolveReport report;
@@ -126,6 +133,63 @@ SolveReport report_of(const SolvedTimeline& solved, std::vector<SolveRecord> rec
     for (SolveRecord& record : report.solves) record.convergence.error /= system.diagonal();
   }
   return report;
+}
+
+/// The hash of all numbers that shapes come from.
+std::string hash_of(const MorphableMesh& mesh, const SeparableTimeline& separable) {
+  std::string hashes = hash_of(separable.reference);
+  for (const Positions& positions : mesh.geometries) hashes += hash_of(positions);
+  for (const TransitionField& field : separable.fields) {
+    hashes += hash_of(field.change) + content_hash(field.name);
+  }
+  return content_hash(hashes);
+}
+
+KeptShapes solved_shapes(const MorphableMesh& mesh, const SolveOptions& options,
+                         const Observer& observer, SolvedTimeline& solved) {
+  const StateSystem& states = *solved.states;
+  solved.solver =
+      std::make_unique<SurfaceSolver>(*states.displacements, options, observer, states.factor);
+  SolvedShapes shapes = solve_fields(*solved.solver, mesh, *solved.separable, observer);
+  SolveReport report = report_of(solved, std::move(shapes.records));
+  return {std::move(shapes), std::move(report)};
+}
+
+/// Solves for the shapes of which the timeline is made, or takes them from the cache: when frames
+/// come is nothing to them.
+void solve_shapes(const Recipe& recipe, const MorphableMesh& mesh, const SolveOptions& options,
+                  BakeCache& cache, StageKey key, const Observer& observer,
+                  SolvedTimeline& solved) {
+  if (cache.is_on()) key.key = content_hash(key.key + hash_of(mesh, *solved.separable));
+  KeptShapes kept = taken_or_made(
+      cache, key, observer,
+      [&](const Observer& listening) { return solved_shapes(mesh, options, listening, solved); },
+      [](const KeptShapes& shapes) { return entry_of(shapes); },
+      [&](const CacheEntry& entry) {
+        return shapes_of(entry, solved.separable->fields.size(), mesh.connectivity.vertex_count);
+      });
+  solved.shapes = std::move(kept.shapes);
+  solved.report = std::move(kept.report);
+  solved.frames = combined_frames(solved.shapes, *solved.separable, recipe.timeline);
+}
+
+void solve_every_frame(const Recipe& recipe, const RegionFields& regions, Eigen::Index count,
+                       const SolveOptions& options, const Observer& observer,
+                       SolvedTimeline& solved) {
+  const StateSystem& states = *solved.states;
+  solved.solver =
+      std::make_unique<SurfaceSolver>(*states.displacements, options, observer, states.factor);
+  const auto goals_at = [&](std::span<const double> times) {
+    std::vector<TransitionState> moments;
+    for (const double time : times) {
+      moments.push_back(transition_at(recipe, regions, count, time));
+    }
+    return states.goals(moments);
+  };
+  SolvedFrames frames =
+      solved_frames(*solved.solver, states.rest, frame_times(recipe.timeline), goals_at, observer);
+  solved.frames = std::move(frames.source);
+  solved.report = report_of(solved, std::move(frames.records));
 }
 
 }  // namespace
@@ -144,8 +208,8 @@ void check_timeline(const Recipe& recipe, const MorphableMesh& mesh, const Regio
 
 std::unique_ptr<SolvedTimeline> solve_timeline(const Recipe& recipe, const MorphableMesh& mesh,
                                                const RegionFields& regions,
-                                               const SolveOptions& options,
-                                               const Observer& observer) {
+                                               const SolveOptions& options, BakeCache& cache,
+                                               const StageKey& key, const Observer& observer) {
   const Eigen::Index count = mesh.connectivity.vertex_count;
   auto solved = std::make_unique<SolvedTimeline>();
   solved->representation = choose_representation(recipe, mesh, observer);
@@ -157,30 +221,13 @@ std::unique_ptr<SolvedTimeline> solve_timeline(const Recipe& recipe, const Morph
   solved->states = std::make_unique<StateSystem>(
       make_states(mesh, changes.reference, solved->representation,
                   timeline_system(recipe, mesh, regions, changes, options), solving, observer));
-  const StateSystem& states = *solved->states;
   solved->separable = std::move(changes.separable);
-  solved->solver =
-      std::make_unique<SurfaceSolver>(*states.displacements, solving, observer, states.factor);
-  std::vector<SolveRecord> records;
-  if (!solving.every_frame) {
-    solved->shapes = solve_fields(*solved->solver, mesh, *solved->separable, observer);
-    solved->frames = combined_frames(solved->shapes, *solved->separable, recipe.timeline);
-    records = solved->shapes.records;
+  if (solving.every_frame) {
+    solve_every_frame(recipe, regions, count, solving, observer, *solved);
   } else {
-    const auto goals_at = [&](std::span<const double> times) {
-      std::vector<TransitionState> moments;
-      for (const double time : times) {
-        moments.push_back(transition_at(recipe, regions, count, time));
-      }
-      return states.goals(moments);
-    };
-    SolvedFrames frames = solved_frames(*solved->solver, states.rest, frame_times(recipe.timeline),
-                                        goals_at, observer);
-    solved->frames = std::move(frames.source);
-    records = std::move(frames.records);
+    solve_shapes(recipe, mesh, solving, cache, key, observer, *solved);
   }
   warn_of_spike(recipe, mesh, *solved, changes, observer);
-  solved->report = report_of(*solved, std::move(records));
   return solved;
 }
 

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "morphbake/bake/bake.h"
+#include "morphbake/bake/bake_cache.h"
 #include "morphbake/bake/choose_representation.h"
 #include "morphbake/solve/frame_source.h"
 #include "morphbake/solve/state_system.h"
@@ -15,20 +16,22 @@ struct SolvedTimeline {
   RepresentationChoice representation;
   std::optional<SeparableTimeline> separable;  ///< none when regions move or flood, or too many
   std::unique_ptr<StateSystem> states;
-  std::unique_ptr<SurfaceSolver> solver;
-  SolvedShapes shapes;  ///< empty when frames were solved
+  std::unique_ptr<SurfaceSolver> solver;  ///< none where shapes came from the cache
+  SolvedShapes shapes;                    ///< empty when frames were solved
   FrameSource frames;
   SolveReport report;
 };
 
-/// Chooses what is held and where the rest stands, factorises, solves.
+/// Chooses what is held and where the rest stands, factorises, solves. Shapes that the cache has
+/// are not solved for.
 ///
+/// @param key  of the shapes, but for the mesh and the timeline's fields
 /// @throws BakeError "recipe.held-region-changes", "recipe.moving-region", "recipe.needs-frames",
 ///         "options.cannot-hold", "solve.no-convergence"
 std::unique_ptr<SolvedTimeline> solve_timeline(const Recipe& recipe, const MorphableMesh& mesh,
                                                const RegionFields& regions,
-                                               const SolveOptions& options,
-                                               const Observer& observer);
+                                               const SolveOptions& options, BakeCache& cache,
+                                               const StageKey& key, const Observer& observer);
 
 /// Finds what solve_timeline would refuse before it solves.
 ///

@@ -24,7 +24,8 @@ std::string format_problem(const Problem& problem) {
   const Location& at = problem.location;
   std::string text = without_control_characters(at.file);
   if (!at.pointer.empty()) text += "#" + without_control_characters(at.pointer);
-  if (at.line > 0) text += fmt::format(":{}:{}", at.line, at.column);
+  if (at.line > 0) text += fmt::format(":{}", at.line);
+  if (at.line > 0 && at.column > 0) text += fmt::format(":{}", at.column);
   if (!text.empty()) text += ": ";
   text += problem.severity == Severity::Error ? "error: " : "warning: ";
   text += fmt::format("{} [{}]", without_control_characters(problem.message), problem.code);

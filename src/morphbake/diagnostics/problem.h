@@ -13,7 +13,7 @@ enum class Severity { Warning, Error };
 struct Location {
   std::string file;
   std::string pointer;  ///< RFC 6901, "" for the whole document
-  int line = 0;         ///< 1-based; 0 when unknown (only syntax errors know it)
+  int line = 0;         ///< 1-based; 0 when unknown (syntax errors and lists know it)
   int column = 0;       ///< 1-based; 0 when unknown
 };
 

@@ -29,6 +29,8 @@ namespace {
        "check that the folder is writable and has free space, or choose another with --output-dir");
 }
 
+constexpr std::size_t kTokenLetters = 16;
+
 /// "dir/name.gif" -> "dir/.name.3f2a9c01.tmp.gif"; the extension stays last because libraries
 /// choose by it.
 fs::path temporary_beside(const fs::path& path) {
@@ -37,6 +39,17 @@ fs::path temporary_beside(const fs::path& path) {
   // File names may have 255 bytes at most: a long name is cut, the token keeps it unique.
   const std::string stem = path.stem().string().substr(0, 180);
   return path.parent_path() / fmt::format(".{}.{}.tmp{}", stem, token, path.extension().string());
+}
+
+/// Whether temporary_beside() calls a file so.
+bool is_temporary_name(const std::string& name) {
+  const std::size_t end = name.rfind(".tmp");
+  if (!name.starts_with('.') || end == std::string::npos || end < kTokenLetters + 2) return false;
+  const std::string extension = name.substr(end + 4);
+  if (!extension.empty() && extension.front() != '.') return false;
+  const std::string token = name.substr(end - kTokenLetters, kTokenLetters);
+  return name[end - kTokenLetters - 1] == '.' &&
+         token.find_first_not_of("0123456789abcdef") == std::string::npos;
 }
 
 /// @param shown  what messages call the file
@@ -49,8 +62,12 @@ void sync_to_disk(const fs::path& path, const fs::path& shown) {
   if (result != 0) fail_to_write(shown, error);
 }
 
+/// Whether a file's bytes are on the disk before it gets its name.
+enum class Sync { Yes, No };
+
 /// @param shown  what messages call the file
-void write_new_file(const fs::path& path, std::string_view bytes, const fs::path& shown) {
+void write_new_file(const fs::path& path, std::string_view bytes, const fs::path& shown,
+                    Sync sync) {
   const int descriptor = ::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
   if (descriptor < 0) fail_to_write(shown, errno);
   std::size_t done = 0;
@@ -64,7 +81,7 @@ void write_new_file(const fs::path& path, std::string_view bytes, const fs::path
     }
     done += static_cast<std::size_t>(count);
   }
-  const bool synced = ::fsync(descriptor) == 0;
+  const bool synced = sync == Sync::No || ::fsync(descriptor) == 0;
   const int error = errno;
   if (::close(descriptor) != 0 || !synced) fail_to_write(shown, error);
 }
@@ -128,6 +145,31 @@ fs::path inside_folder(const fs::path& folder, std::string_view uri) {
   return root_end == root.end() ? target : fs::path();
 }
 
+void replace_unsynced(const fs::path& path, std::string_view bytes) {
+  std::vector<fs::path> made;
+  make_folders(path.parent_path(), made);
+  const fs::path temporary = temporary_beside(path);
+  try {
+    write_new_file(temporary, bytes, path, Sync::No);
+    if (std::rename(temporary.c_str(), path.c_str()) != 0) fail_to_write(path, errno);
+  } catch (const BakeError&) {
+    std::error_code ignored;
+    fs::remove(temporary, ignored);
+    throw;
+  }
+}
+
+void remove_temporaries(const fs::path& folder) {
+  std::error_code error;
+  fs::directory_iterator entry(folder, error);
+  while (!error && entry != fs::directory_iterator()) {
+    std::error_code ignored;
+    const bool is_file = entry->symlink_status(ignored).type() == fs::file_type::regular;
+    if (is_file && is_temporary_name(entry->path().filename())) fs::remove(entry->path(), ignored);
+    entry.increment(error);
+  }
+}
+
 PendingOutputs::~PendingOutputs() {
   std::error_code ignored;
   for (const Entry& entry : entries_) fs::remove(entry.temporary, ignored);
@@ -151,7 +193,7 @@ fs::path PendingOutputs::stage_external(const fs::path& path) {
 
 fs::path PendingOutputs::stage(const fs::path& path, std::string_view bytes) {
   fs::path temporary = stage_external(path);
-  write_new_file(temporary, bytes, path);
+  write_new_file(temporary, bytes, path, Sync::Yes);
   return temporary;
 }
 

@@ -26,6 +26,16 @@ std::string read_file_start(const std::filesystem::path& path, std::uintmax_t mo
 /// by symbolic link
 std::filesystem::path inside_folder(const std::filesystem::path& folder, std::string_view uri);
 
+/// Writes a file in the stead of one that may be there. Readers see the old or the new one; but the
+/// disk is not waited for, so after a loss of power it may hold anything: for what a hash guards.
+///
+/// @throws BakeError "output.unwritable"
+void replace_unsynced(const std::filesystem::path& path, std::string_view bytes);
+
+/// Removes what PendingOutputs of processes that were killed have left in a folder. Nobody may be
+/// writing there.
+void remove_temporaries(const std::filesystem::path& folder);
+
 /// Outputs that appear together or not at all.
 ///
 /// Each staged file is written under a random temporary name beside its final one; commit() renames

@@ -16,6 +16,7 @@
 #include "morphbake/gltf/resources.h"
 #include "morphbake/gltf/size_limits.h"
 #include "morphbake/gltf/unpack.h"
+#include "morphbake/gltf/uri.h"
 
 namespace morphbake {
 namespace fs = std::filesystem;
@@ -204,6 +205,30 @@ void fail_at(const GltfDocument& document, const std::string& pointer, const std
              const std::string& message, const std::string& hint) {
   throw BakeError(
       Problem{Severity::Error, code, {document.file.string(), pointer, 0, 0}, message, hint});
+}
+
+std::vector<fs::path> files_beside(const fs::path& file) {
+  std::vector<fs::path> files;
+  try {
+    GltfDocument document;
+    document.file = file;
+    const std::string bytes = read_file(file, kFileSizeLimit);
+    const Json json =
+        parse_source_json(document, is_binary(bytes) ? json_chunk(document, bytes) : bytes);
+    for (const char* list : {"buffers", "images"}) {
+      for (const Json& entry : json.value(list, Json::array())) {
+        const std::string uri = entry.value("uri", "");
+        if (uri.empty() || is_data_uri(uri)) continue;
+        const fs::path named = inside_folder(file.parent_path(), uri_path(uri));
+        if (!named.empty()) files.push_back(named);
+      }
+    }
+  } catch (const BakeError&) {
+    return {};
+  } catch (const Json::exception&) {
+    return {};
+  }
+  return files;
 }
 
 std::string file_of(const GltfFile& file) { return file->file.string(); }

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <vector>
 
 namespace morphbake {
 
@@ -25,6 +26,10 @@ GltfFile open_gltf(const std::filesystem::path& file);
 /// @param name  what messages call it
 /// @throws BakeError as open_gltf
 GltfFile open_gltf_bytes(std::string bytes, const std::filesystem::path& name);
+
+/// The files beside a glTF that hold its buffers and images, whether they are there or not; none
+/// where it is no glTF or cannot be read: opening it tells why.
+std::vector<std::filesystem::path> files_beside(const std::filesystem::path& file);
 
 /// Where the file was read from.
 std::string file_of(const GltfFile& file);

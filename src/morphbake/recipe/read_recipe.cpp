@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "morphbake/json/schema.h"
+#include "morphbake/recipe/changes.h"
 #include "morphbake/recipe/includes.h"
 #include "morphbake/recipe/reading.h"
 
@@ -89,17 +90,19 @@ void read_parts(Reading& reading) {
 
 }  // namespace
 
-Recipe read_recipe(const std::filesystem::path& file) {
-  const auto [document, parts] = read_with_includes(file);
+Recipe read_recipe(const std::filesystem::path& file, const std::vector<RecipeChange>& changes) {
+  const auto [document, parts] = changed(read_with_includes(file), changes);
   std::vector<Problem> problems =
       schema_problems(document, shipped_schema("recipe.schema.json"), {file.string(), ""});
   for (Problem& problem : problems) {
-    problem.location.file = written_in(parts, problem.location.pointer).string();
+    const RecipePart& part = part_at(parts, problem.location.pointer);
+    problem.location = {part.file.string(), problem.location.pointer, part.line, part.column};
   }
   if (!is_readable(problems)) throw_problems(problems);
   Reading reading{document, std::filesystem::absolute(file).parent_path(), {}, {}, {}};
   reading.recipe.file = file;
   reading.recipe.parts = parts;
+  reading.recipe.document = document.dump(-1, ' ', false, Json::error_handler_t::replace);
   read_parts(reading);
   add_unexplained(problems, reading.problems);
   throw_problems(std::move(problems));

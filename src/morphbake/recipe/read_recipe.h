@@ -8,13 +8,21 @@
 
 namespace morphbake {
 
+/// A value that is put into a recipe in place of what it says.
+struct RecipeChange {
+  std::string pointer;  ///< JSON pointer of the whole recipe, with what it includes
+  std::string value;    ///< JSON text
+  Location at;          ///< who asks for it: a file, line and column; file names start there
+};
+
 /// Reads a recipe and the landmark files that it names; all names resolved, all defaults filled in.
 ///
 /// @throws BakeError with all problems found: "json.syntax", "json.duplicate-key",
 /// "recipe.unknown-field",
 ///         "recipe.wrong-type", "recipe.out-of-range", "recipe.missing-field",
-///         "recipe.unknown-name", ...
-Recipe read_recipe(const std::filesystem::path& file);
+///         "recipe.unknown-name", "recipe.bad-pointer", ...
+/// @param changes  in their order, made once all that the recipe includes is read
+Recipe read_recipe(const std::filesystem::path& file, const std::vector<RecipeChange>& changes = {});
 
 /// A copy of `recipe` that writes into `folder`, each output under its own file name.
 Recipe redirect_outputs(Recipe recipe, const std::filesystem::path& folder);

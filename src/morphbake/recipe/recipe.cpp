@@ -15,13 +15,17 @@ bool lies_in(std::string_view pointer, std::string_view part) {
 
 }  // namespace
 
-const std::filesystem::path& written_in(const std::vector<RecipePart>& parts,
-                                        std::string_view pointer) {
+const RecipePart& part_at(const std::vector<RecipePart>& parts, std::string_view pointer) {
   const RecipePart* best = &parts.front();
   for (const RecipePart& part : parts) {
     if (part.pointer.size() >= best->pointer.size() && lies_in(pointer, part.pointer)) best = &part;
   }
-  return best->file;
+  return *best;
+}
+
+const std::filesystem::path& written_in(const std::vector<RecipePart>& parts,
+                                        std::string_view pointer) {
+  return part_at(parts, pointer).file;
 }
 
 namespace {
@@ -66,9 +70,9 @@ bool has_shares_an_axis(const Recipe& recipe) {
 }
 
 Location location_in(const Recipe& recipe, std::string pointer) {
-  const std::filesystem::path& file =
-      recipe.parts.empty() ? recipe.file : written_in(recipe.parts, pointer);
-  return {file.string(), std::move(pointer), 0, 0};
+  if (recipe.parts.empty()) return {recipe.file.string(), std::move(pointer), 0, 0};
+  const RecipePart& part = part_at(recipe.parts, pointer);
+  return {part.file.string(), std::move(pointer), part.line, part.column};
 }
 
 }  // namespace morphbake

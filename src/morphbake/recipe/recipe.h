@@ -212,6 +212,8 @@ struct PreviewRequest {
 struct RecipePart {
   std::string pointer;         ///< in the whole recipe; "" is all that no other part has
   std::filesystem::path file;  ///< as messages call it
+  int line = 0;                ///< of a change: where it is written; 0 for a file of the recipe
+  int column = 0;              ///< likewise: the cell of a table; 0 where there are none
 };
 
 /// A scene recipe, all names resolved to indices, all defaults filled in.
@@ -232,9 +234,13 @@ struct Recipe {
   std::vector<Output> outputs;
   std::optional<PreviewRequest> preview;
   std::string options = "{}";  ///< JSON text of the recipe's "options", see bake/options.h
+  std::string document;        ///< JSON text of all of it, with what it includes
 };
 
-/// The file that wrote what stands at `pointer`: of the longest part there, the last.
+/// Who wrote what stands at `pointer`: of the longest part there, the last.
+const RecipePart& part_at(const std::vector<RecipePart>& parts, std::string_view pointer);
+
+/// The file of that part.
 const std::filesystem::path& written_in(const std::vector<RecipePart>& parts,
                                         std::string_view pointer);
 

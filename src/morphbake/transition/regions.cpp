@@ -54,17 +54,28 @@ struct Surveyed {
 class RegionBuilder {
  public:
   RegionBuilder(const MorphableMesh& mesh, const Recipe& recipe,
-                const std::vector<Eigen::VectorXd>& masks)
-      : mesh_(mesh), recipe_(recipe), masks_(masks), sets_(recipe.regions.size()) {}
+                const std::vector<Eigen::VectorXd>& masks,
+                std::vector<std::optional<RegionField>> known)
+      : mesh_(mesh),
+        recipe_(recipe),
+        masks_(masks),
+        known_(std::move(known)),
+        sets_(recipe.regions.size()) {
+    known_.resize(recipe.regions.size());
+  }
 
   RegionFields build() {
-    for (std::size_t r = 0; r < sets_.size(); ++r) ask(r);
+    for (std::size_t r = 0; r < sets_.size(); ++r) {
+      if (!known_[r]) ask(r);
+    }
     for (auto& [source, surveyed] : surveyed_) {
       if (surveyed.first_asked_at.pointer.empty()) continue;
       surveyed.geodesics.emplace(surveyed.mesh, surveyed.sets, surveyed.first_asked_at);
     }
     RegionFields fields(sets_.size());
-    for (std::size_t r = 0; r < sets_.size(); ++r) fields[r] = field_of(r);
+    for (std::size_t r = 0; r < sets_.size(); ++r) {
+      fields[r] = known_[r] ? std::move(*known_[r]) : field_of(r);
+    }
     std::vector<bool> done(fields.size(), false);
     for (std::size_t r = 0; r < fields.size(); ++r) settle_combination(fields, done, r);
     return fields;
@@ -301,7 +312,8 @@ class RegionBuilder {
   const MorphableMesh& mesh_;
   const Recipe& recipe_;
   const std::vector<Eigen::VectorXd>& masks_;
-  std::vector<StartingPoints> sets_;  // one a region
+  std::vector<std::optional<RegionField>> known_;  // one a region
+  std::vector<StartingPoints> sets_;               // one a region
   std::map<int, Surveyed> surveyed_;
   std::map<int, std::shared_ptr<const Positions>> coordinates_;
 };
@@ -309,8 +321,9 @@ class RegionBuilder {
 }  // namespace
 
 RegionFields region_fields(const MorphableMesh& mesh, const Recipe& recipe,
-                           const std::vector<Eigen::VectorXd>& masks) {
-  return RegionBuilder(mesh, recipe, masks).build();
+                           const std::vector<Eigen::VectorXd>& masks,
+                           std::vector<std::optional<RegionField>> known) {
+  return RegionBuilder(mesh, recipe, masks, std::move(known)).build();
 }
 
 }  // namespace morphbake

@@ -21,7 +21,7 @@ bool bakes(const std::string& recipe_file, const std::string& folder) {
   morphbake::Recipe recipe =
       morphbake::redirect_outputs(morphbake::read_recipe(recipe_file), folder);
   recipe.preview.reset();
-  const morphbake::BakeReport report = morphbake::bake(recipe, {}, {});
+  const morphbake::BakeReport report = morphbake::bake(recipe, {}, {}, {});
   std::puts(morphbake::report_to_json(report).c_str());
   return report.outputs.size() == 1 && !report.outputs[0].targets.empty();
 }
