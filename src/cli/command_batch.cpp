@@ -122,9 +122,7 @@ void add_limits(CLI::App& parser, BatchOptions& options) {
                   "Of each process; 0: all cores; changes the time, never a byte")
       ->check(CLI::Range(0, 1024))
       ->capture_default_str();
-  parser
-      .add_option("--timeout", options.timeout,
-                  "Seconds that a recipe may take; 0: any number")
+  parser.add_option("--timeout", options.timeout, "Seconds that a recipe may take; 0: any number")
       ->check(CLI::Range(0.0, 1e9))
       ->capture_default_str();
   parser
@@ -152,8 +150,9 @@ Command add_batch(CLI::App& program) {
   parser->add_option("--table", arguments->table,
                      "With one recipe: rows of changes (.csv, or .jsonl of objects)");
   add_limits(*parser, options);
-  parser->add_option("--shard", arguments->shard,
-                     "Bake one of N parts; recipes that share a connectivity are in one")
+  parser
+      ->add_option("--shard", arguments->shard,
+                   "Bake one of N parts; recipes that share a connectivity are in one")
       ->type_name("I/N");
   parser->add_flag("--collect", arguments->collect, "Bake nothing: join the reports of the shards");
   parser->add_flag("--html", options.write_page, "Write OUT/index.html: a page of all recipes");

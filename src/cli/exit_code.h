@@ -11,7 +11,7 @@ namespace morphbake::cli {
 enum class ExitCode {
   Done = 0,
   Bug = 1,
-  Recipe = 2,  ///< or usage
+  Recipe = 2,      ///< or usage
   SomeFailed = 3,  ///< of the recipes of a batch
   SourceMesh = 4,
   Numerical = 5,

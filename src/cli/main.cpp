@@ -77,7 +77,8 @@ std::string shown_error(const CLI::App& program, const CLI::ParseError& error,
   if (!program.get_subcommands().empty()) return error.what();
   if (command_word.empty()) return "no command given";
   return "'" + std::string(command_word) +
-         "' is no command; there are init, bake, plan, batch, validate, remesh, inspect, lint, preview, "
+         "' is no command; there are init, bake, plan, batch, validate, remesh, inspect, lint, "
+         "preview, "
          "diff, golden, landmarks, cache, config";
 }
 
@@ -136,10 +137,10 @@ ExitCode run_program(int argc, char** argv, Terminal& terminal) {
   GlobalFlags flags;
   add_global_flags(program, flags);
   const std::vector<Command> commands = {
-      add_init(program),   add_bake(program),    add_plan(program),      add_batch(program), add_validate(program),
-      add_remesh(program), add_inspect(program), add_lint(program),      add_preview(program),
-      add_diff(program),   add_golden(program),  add_landmarks(program), add_cache(program),
-      add_config(program)};
+      add_init(program),     add_bake(program),   add_plan(program),    add_batch(program),
+      add_validate(program), add_remesh(program), add_inspect(program), add_lint(program),
+      add_preview(program),  add_diff(program),   add_golden(program),  add_landmarks(program),
+      add_cache(program),    add_config(program)};
   try {
     program.parse(argc, argv);
   } catch (const CLI::CallForVersion&) {

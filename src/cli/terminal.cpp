@@ -134,7 +134,8 @@ void Terminal::progress(const BatchProgress& progress) {
   const bool is_json = settings_.log == LogFormat::Json;
   const auto pause = milliseconds(settings_.show_bar ? 200 : is_json ? 1000 : 10000);
   const bool is_last = progress.done == progress.total;
-  if (settings_.quiet || (!is_last && now - last_told_ < pause)) return;
+  const bool is_nothing_new = progress.done == 0 && !settings_.show_bar;
+  if (settings_.quiet || is_nothing_new || (!is_last && now - last_told_ < pause)) return;
   last_told_ = now;
   if (is_json) return print_log(one_line({{"severity", "info"}, {"batch", to_json(progress)}}));
   stage_ = shown(progress);

@@ -1,5 +1,6 @@
-// bench [NAME...] [> TABLE]: measures everything, or what is named: solve, regions, eigenvectors,
-// load, targets, export, preview, diff. With --json FILE first it writes the figures there as well.
+// bench [NAME...] [> TABLE]: measures everything, or what is named: batch, solve, regions,
+// eigenvectors, load, targets, export, preview, diff. With --json FILE first it writes the figures
+// there as well.
 
 #include <fmt/core.h>
 #include <malloc.h>
@@ -75,7 +76,9 @@ int main(int argc, char** argv) {
     wanted.erase(wanted.begin(), wanted.begin() + 2);
   }
   const std::vector<std::pair<std::string, std::function<void(Figures&)>>> all = {
-      // First, since what others free is kept, and would be counted as its memory.
+      // First, since it forks, and must not have threads at work.
+      {"batch", [](Figures& figures) { bench_batch(1000, figures); }},
+      // Next, since what others free is kept, and would be counted as its memory.
       {"stream", [](Figures& figures) { bench_stream(1100000, 600, figures); }},
       {"solve", at_each_size(bench_solvers)},
       {"rotations", at_each_size(bench_rotations)},

@@ -41,6 +41,7 @@ std::string shown_count(int count);
 double peak_memory();
 void forget_peak_memory();
 
+void bench_batch(int count, Figures& figures);
 void bench_solvers(int vertices, Figures& figures);
 void bench_stream(int vertices, int frames, Figures& figures);
 void bench_rotations(int vertices, Figures& figures);

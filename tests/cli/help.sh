@@ -4,7 +4,7 @@
 run 0 --help
 stdout_has "Exit codes: 0 done"
 [ -s "$scratch/stderr" ] && wrong "--help prints on stderr"
-for command in init bake validate inspect lint preview diff golden landmarks config; do
+for command in init bake batch validate inspect lint preview diff golden landmarks config; do
   run 0 --help
   stdout_has "  $command "
   run 0 $command --help

@@ -1,6 +1,6 @@
 # Every code in the source has a line in docs/problems.md, and the other way round.
 cd "$(dirname "$0")/../.." || exit 1
-modules='usage|files|json|profile|recipe|sources|landmarks|options|gltf|correspondence|connectivity|linear|solve|derive|transition|basis|export|output|image|preview|memory|cache'
+modules='usage|files|json|profile|recipe|sources|landmarks|options|gltf|correspondence|connectivity|linear|solve|derive|transition|basis|export|output|image|preview|memory|cache|batch'
 in_source=$(grep -rhoE "\"($modules)\.[a-z-]+\"" src --include=*.cpp | tr -d '"' | grep -vE '\.(json|md|[a-z-]*-)$' | sort -u)
 # Codes that are put together from a prefix.
 for prefix in recipe landmarks options profile; do

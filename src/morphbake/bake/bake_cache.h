@@ -33,6 +33,8 @@ class BakeCache {
 
   bool is_on() const { return cache_.is_on(); }
 
+  const StageCache& entries() const { return cache_; }
+
   /// The stage as it was kept, its warnings in the words for this recipe; they are not told yet.
   std::optional<KeptStage> find(const StageKey& stage) const;
 

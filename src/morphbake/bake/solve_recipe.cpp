@@ -101,8 +101,10 @@ std::unique_ptr<SolvedStages> solve_recipe(const Recipe& recipe, const BakeOptio
   clock.start("transition");
   shape_sources(std::move(connected), cache, keys, observer, *stages);
   clock.start("solve");
-  stages->timeline = solve_timeline(stages->recipe, stages->mesh, stages->regions, options.solve,
-                                    cache, keys.shapes, observer);
+  SolveOptions solving = options.solve;
+  solving.orders = cache.entries();
+  stages->timeline = solve_timeline(stages->recipe, stages->mesh, stages->regions, solving, cache,
+                                    keys.shapes, observer);
   clock.start("export");
   stages->groups = find_smoothing_groups(stages->sources.front(), stages->mesh);
   stages->colours = shape_colours(stages->recipe, stages->sources);

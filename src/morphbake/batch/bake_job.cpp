@@ -67,8 +67,8 @@ std::vector<FileState> outputs_of(const BakeReport& report, const fs::path& fold
 void remove_old_outputs(const BatchRecord& before, const std::vector<FileState>& now,
                         const fs::path& folder) {
   for (const FileState& old : before.outputs) {
-    const bool is_again = std::ranges::any_of(
-        now, [&](const FileState& state) { return state.file == old.file; });
+    const bool is_again =
+        std::ranges::any_of(now, [&](const FileState& state) { return state.file == old.file; });
     FileHashes hashes;
     if (is_again || !are_unchanged({old}, folder, before.written, hashes).is_true) continue;
     std::error_code ignored;
@@ -79,9 +79,11 @@ void remove_old_outputs(const BatchRecord& before, const std::vector<FileState>&
 /// The folder of a recipe's outputs, which no other batch may bake into meanwhile.
 class OutputFolder {
  public:
-  explicit OutputFolder(const fs::path& folder) : folder_(made(folder)), lock_(folder_, FileLock::Kind::Alone, true) {
+  explicit OutputFolder(const fs::path& folder)
+      : folder_(made(folder)), lock_(folder_, FileLock::Kind::Alone, true) {
     if (lock_.is_held()) remove_temporaries(folder_);  // of bakes that were killed
   }
+
   OutputFolder(const OutputFolder&) = delete;
   OutputFolder& operator=(const OutputFolder&) = delete;
 
@@ -101,6 +103,13 @@ class OutputFolder {
   FileLock lock_;
 };
 
+/// A key of the outputs' bytes and of what they are called.
+std::string key_with_names(const std::string& key, const Recipe& recipe) {
+  Json named = {key};
+  for (const Output& output : recipe.outputs) named.push_back(output.file.filename().string());
+  return content_hash(named.dump(-1, ' ', false, Json::error_handler_t::replace));
+}
+
 /// Fills in what the bake, or a look at its files, gives.
 JobResult::Kind bake_into(BatchRecord& record, const BakeJob& job, const BatchOptions& options,
                           const std::function<bool()>& is_cancelled) {
@@ -111,7 +120,7 @@ JobResult::Kind bake_into(BatchRecord& record, const BakeJob& job, const BatchOp
     record.inputs.push_back(state_of(file, job.folder, files.hashes));
   }
   const BakeKeys keys = bake_keys(recipe, bake_options, files);
-  record.key = bake_key(keys);
+  record.key = key_with_names(bake_key(keys), recipe);
   record.connectivity = keys.connectivity.key;
   const OutputFolder output_folder(job.folder / job.entry.name);
   if (job.before && job.before->key == record.key) {
@@ -191,7 +200,8 @@ JobResult run_job(const BakeJob& job, const BatchOptions& options,
     result.record.problems = {bug(job.entry, error.what())};
   }
   const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - began;
-  result.record.seconds = seconds.count();
+  const bool is_as_before = result.kind == JobResult::Kind::Unchanged;
+  result.record.seconds = is_as_before ? job.before->seconds : seconds.count();
   return result;
 }
 

@@ -15,8 +15,8 @@ struct QueuedBake {
   std::string makes;  ///< the key of what it makes for those that wait; "" before that is known
 };
 
-/// The order in which a list is baked: its own, but that recipes wait for what another one makes for
-/// them.
+/// The order in which a list is baked: its own, but that recipes wait for what another one makes
+/// for them.
 class BakeQueue {
  public:
   explicit BakeQueue(std::vector<std::size_t> entries) : entries_(std::move(entries)) {}
@@ -27,8 +27,8 @@ class BakeQueue {
   /// Puts an entry back, to be the next one.
   void put_back(QueuedBake bake) { released_.push_front(std::move(bake)); }
 
-  /// An entry needs what has the key `needs`, which is not there: whether another one makes that and
-  /// it is to wait; else it is to make it.
+  /// An entry needs what has the key `needs`, which is not there: whether another one makes that
+  /// and it is to wait; else it is to make it.
   bool waits(std::size_t entry, const std::string& needs);
 
   /// Who made it has ended. If it failed the next one that waits for it makes it.

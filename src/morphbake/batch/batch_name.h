@@ -6,7 +6,7 @@ namespace morphbake {
 
 /// A recipe's name in a batch, which is its folder below that of all outputs.
 struct BatchName {
-  std::string name;    ///< in its shortest form: "nose/recipe"
+  std::string name;     ///< in its shortest form: "nose/recipe"
   std::string refusal;  ///< why it can be none, or ""
 };
 

@@ -14,18 +14,45 @@
 namespace morphbake {
 namespace {
 
-/// As text of HTML, also in quotes.
-std::string escaped(const std::string& text) {
+/// As text of HTML, also in quotes; of control characters line breaks stay.
+std::string escaped_lines(const std::string& text) {
   std::string safe;
-  for (const char letter : without_control_characters(text)) {
+  for (const char letter : text) {
     switch (letter) {
-      case '&': safe += "&amp;"; break;
-      case '<': safe += "&lt;"; break;
-      case '>': safe += "&gt;"; break;
-      case '"': safe += "&quot;"; break;
-      case '\'': safe += "&#39;"; break;
-      default: safe += letter;
+      case '&':
+        safe += "&amp;";
+        break;
+      case '<':
+        safe += "&lt;";
+        break;
+      case '>':
+        safe += "&gt;";
+        break;
+      case '"':
+        safe += "&quot;";
+        break;
+      case '\'':
+        safe += "&#39;";
+        break;
+      default:
+        safe += letter;
     }
+  }
+  return safe;
+}
+
+/// One line of it.
+std::string escaped(const std::string& text) {
+  return escaped_lines(without_control_characters(text));
+}
+
+/// Several lines, which control characters do not disturb.
+std::string escaped_text(const std::string& text) {
+  std::string safe;
+  for (std::size_t begin = 0; begin <= text.size();) {
+    const std::size_t end = std::min(text.find('\n', begin), text.size());
+    safe += (begin > 0 ? "\n" : "") + escaped(text.substr(begin, end - begin));
+    begin = end + 1;
   }
   return safe;
 }
@@ -61,8 +88,18 @@ std::string picture_cell(const BatchRecord& record) {
   });
   if (picture == record.outputs.end()) return "<td class=pic></td>";
   const std::string url = url_of(picture->file);
-  return fmt::format("<td class=pic><a href=\"{0}\"><img loading=lazy src=\"{0}\" alt=\"{1}\"></a></td>",
-                     url, escaped("pictures of " + record.name));
+  return fmt::format(
+      "<td class=pic><a href=\"{0}\"><img loading=lazy src=\"{0}\" alt=\"{1}\"></a></td>", url,
+      escaped("pictures of " + record.name));
+}
+
+std::string problems_of(const BatchRecord& record, Severity severity, const char* style) {
+  std::string text;
+  for (const Problem& problem : record.problems) {
+    if (problem.severity != severity) continue;
+    text += fmt::format("<p class={}>{}</p>", style, escaped_text(format_problem(problem)));
+  }
+  return text;
 }
 
 /// The files that were written, and what was told of them.
@@ -73,14 +110,14 @@ std::string name_cell(const BatchRecord& record) {
     const std::string file = output.file.substr(output.file.rfind('/') + 1);
     cell += fmt::format(" <a href=\"{}\">{}</a>", url_of(output.file), escaped(file));
   }
-  for (const Problem& problem : record.problems) {
-    const bool is_error = problem.severity == Severity::Error;
-    cell += fmt::format("<p class={}>{}</p>", is_error ? "error" : "warning",
-                        escaped(format_problem(problem)));
+  cell += problems_of(record, Severity::Error, "error");
+  const std::string warnings = problems_of(record, Severity::Warning, "warning");
+  if (!warnings.empty()) {
+    cell += fmt::format("<details><summary>warnings</summary>{}</details>", warnings);
   }
   if (!record.log.empty()) {
     cell += fmt::format("<details><summary>printed at the end</summary><pre>{}</pre></details>",
-                        escaped(record.log));
+                        escaped_text(record.log));
   }
   return cell + "</td>";
 }
@@ -106,8 +143,9 @@ std::string summary_cells(const BakeSummary& summary) {
 
 void write_page_start(std::ostream& page, const BatchProgress& progress) {
   page << kPageStart
-       << fmt::format("<p><span id=shown>{0}</span> of {0} recipes; {1} failed. morphbake {2}.</p>\n",
-                      progress.total, progress.failed, version())
+       << fmt::format(
+              "<p><span id=shown>{0}</span> of {0} recipes; {1} failed. morphbake {2}.</p>\n",
+              progress.total, progress.failed, version())
        << kTableStart;
 }
 

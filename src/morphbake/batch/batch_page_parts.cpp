@@ -29,8 +29,8 @@ th[aria-sort=descending] button::after { content: " \25BC"; font-size: .7em }
 .n { text-align: right; white-space: nowrap; font-variant-numeric: tabular-nums }
 .name { overflow-wrap: anywhere; min-width: 14rem }
 .name a { margin-left: .4rem }
-.pic { width: 10rem; padding: .3rem }
-img { display: block; width: 10rem; max-height: 10rem; object-fit: contain; border-radius: 4px }
+.pic { width: 14rem; padding: .3rem }
+img { display: block; width: 14rem; max-height: 12rem; object-fit: contain; border-radius: 4px }
 a { color: var(--link) }
 .done { color: var(--good) }
 .failed { color: var(--bad); font-weight: 600 }

@@ -35,10 +35,14 @@ Json to_json(const BakeSummary& summary) {
   for (const StageReport& stage : summary.stages) {
     stages.push_back({{"name", stage.name}, {"seconds", stage.seconds}});
   }
-  return {{"vertices", summary.vertices},   {"triangles", summary.triangles},
-          {"frames", summary.frames},       {"targets", summary.targets},
-          {"bytes", summary.bytes},         {"max_error", summary.max_error},
-          {"normal_error", summary.normal_error}, {"stages", std::move(stages)},
+  return {{"vertices", summary.vertices},
+          {"triangles", summary.triangles},
+          {"frames", summary.frames},
+          {"targets", summary.targets},
+          {"bytes", summary.bytes},
+          {"max_error", summary.max_error},
+          {"normal_error", summary.normal_error},
+          {"stages", std::move(stages)},
           {"cached", summary.cached}};
 }
 

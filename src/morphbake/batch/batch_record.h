@@ -12,10 +12,11 @@ namespace morphbake {
 
 /// A file as it was when a recipe was baked.
 struct FileState {
-  std::string file;         ///< from the folder of the batch on
-  bool is_there = true;     ///< false: it was looked for in vain, and changes the bake once it is there
+  std::string file;  ///< from the folder of the batch on
+  bool is_there =
+      true;  ///< false: it was looked for in vain, and changes the bake once it is there
   std::uint64_t bytes = 0;
-  std::int64_t mtime = 0;   ///< nanoseconds since 1970, as the file system has it
+  std::int64_t mtime = 0;  ///< nanoseconds since 1970, as the file system has it
   std::string hash;
 };
 
@@ -24,15 +25,16 @@ struct BakeSummary {
   int vertices = 0;
   int triangles = 0;
   int frames = 0;
-  int targets = 0;          ///< of all outputs
-  std::uint64_t bytes = 0;  ///< of all .glb
-  double max_error = 0;     ///< the largest of all outputs, share of the diagonal
-  double normal_error = 0;  ///< degrees, likewise
+  int targets = 0;                  ///< of all outputs
+  std::uint64_t bytes = 0;          ///< of all .glb
+  double max_error = 0;             ///< the largest of all outputs, share of the diagonal
+  double normal_error = 0;          ///< degrees, likewise
   std::vector<StageReport> stages;  ///< that ran
   std::vector<std::string> cached;  ///< names of those that were taken from the cache
 };
 
-/// A line of a batch's report: what came of a recipe, and by what a later run sees whether it holds.
+/// A line of a batch's report: what came of a recipe, and by what a later run sees whether it
+/// holds.
 struct BatchRecord {
   std::string name;
   std::string recipe;    ///< its file, from the folder of the batch on

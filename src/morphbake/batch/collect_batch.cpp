@@ -10,8 +10,7 @@ namespace fs = std::filesystem;
 /// Whether a line tells of what is there.
 bool holds(const BatchRecord& record, const fs::path& folder, FileHashes& inputs) {
   FileHashes outputs;
-  return record.is_done &&
-         are_unchanged(record.outputs, folder, record.written, outputs).is_true &&
+  return record.is_done && are_unchanged(record.outputs, folder, record.written, outputs).is_true &&
          are_unchanged(record.inputs, folder, record.written, inputs).is_true;
 }
 

@@ -15,7 +15,7 @@ struct WholeRecipe;
 /// Tells which recipes of a list share a new connectivity.
 ///
 /// Of recipes that say the same of their sources and connectivity only the first is read with all
-/// checks; of a recipe with a table the file is parsed once.
+/// checks; a file whose entries change nothing of these is parsed once.
 class ConnectivityKeys {
  public:
   ConnectivityKeys();
@@ -29,9 +29,12 @@ class ConnectivityKeys {
 
  private:
   const WholeRecipe& whole(const std::filesystem::path& recipe);
+  std::string read_key(const BatchEntry& entry);
 
   InputFiles files_;
-  std::unordered_map<std::string, std::string> known_;  ///< key by hash of what recipes say
+  std::unordered_map<std::string, std::string> by_file_;  ///< of what changes leave as it is
+  std::unordered_map<std::string, std::string> known_;    ///< key by hash of what recipes say
+  std::unordered_map<std::string, int> failures_;         ///< to read them, likewise
   std::filesystem::path last_file_;
   std::unique_ptr<WholeRecipe> last_;
 };

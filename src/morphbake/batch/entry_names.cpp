@@ -2,7 +2,6 @@
 
 #include <fmt/core.h>
 
-#include <algorithm>
 #include <utility>
 
 #include "morphbake/batch/batch_name.h"
@@ -39,11 +38,8 @@ void EntryNames::complain(Problem problem) {
   if (problems_.size() >= kMostProblems) throw BakeError(std::move(problems_));
 }
 
-void EntryNames::complain(const BakeError& error, int line) {
-  for (Problem problem : error.problems()) {
-    problem.location.line = line + std::max(problem.location.line, 1) - 1;
-    complain(std::move(problem));
-  }
+void EntryNames::complain(const BakeError& error) {
+  for (const Problem& problem : error.problems()) complain(problem);
 }
 
 std::vector<std::string> EntryNames::finish(const Location& at) {

@@ -21,7 +21,7 @@ class EntryNames {
   ///
   /// @throws BakeError when there are too many
   void complain(Problem problem);
-  void complain(const BakeError& error, int line);
+  void complain(const BakeError& error);
 
   /// @throws BakeError with all problems; "batch.empty" when there is no name
   std::vector<std::string> finish(const Location& at);

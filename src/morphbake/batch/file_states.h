@@ -26,10 +26,10 @@ struct Unchanged {
 
 /// Compares files with what was noted of them at the time `written`.
 ///
-/// A size and a time of change that are those noted tell that a file is unchanged, but for one that was
-/// changed in the 2 s before `written` or later, by its own file system's clock: it may have been
-/// changed again within a tick of that clock, so that its hash decides. Times are compared for being
-/// equal only: where clocks are wrong, more is hashed, and nothing stale passes.
+/// A size and a time of change that are those noted tell that a file is unchanged, but for one that
+/// was changed in the 2 s before `written` or later, by its own file system's clock: it may have
+/// been changed again within a tick of that clock, so that its hash decides. Times are compared for
+/// being equal only: where clocks are wrong, more is hashed, and nothing stale passes.
 Unchanged are_unchanged(const std::vector<FileState>& states, const std::filesystem::path& folder,
                         std::int64_t written, FileHashes& hashes);
 

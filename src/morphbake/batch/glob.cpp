@@ -75,8 +75,7 @@ std::vector<fs::path> files_matching(const std::string& pattern) {
   std::vector<fs::path> found;
   if (!steps.empty()) add_matches(folder, steps, 0, found);
   std::ranges::sort(found, {}, [](const fs::path& file) { return file.string(); });
-  const auto repeated = std::ranges::unique(found);
-  found.erase(repeated.begin(), repeated.end());
+  found.erase(std::unique(found.begin(), found.end()), found.end());
   return found;
 }
 

@@ -14,8 +14,9 @@ std::filesystem::path folder_before_wildcards(const std::string& pattern);
 
 /// The regular files that a pattern names, in the order of their names' bytes.
 ///
-/// As a shell has it: * ? and [...] inside of a name, ** for any folders, also none. Names that begin
-/// with a dot must be asked for by one; ** follows no links to folders, so that circles of links end.
+/// As a shell has it: * ? and [...] inside of a name, ** for any folders, also none. Names that
+/// begin with a dot must be asked for by one; ** follows no links to folders, so that circles of
+/// links end.
 std::vector<std::filesystem::path> files_matching(const std::string& pattern);
 
 }  // namespace morphbake

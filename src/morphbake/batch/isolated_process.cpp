@@ -18,8 +18,8 @@
 namespace morphbake {
 namespace {
 
-constexpr std::chrono::seconds kPatience(10);       // after a polite SIGTERM
-constexpr std::size_t kLogBytes = 4096;             // of the end of what a process prints
+constexpr std::chrono::seconds kPatience(10);  // after a polite SIGTERM
+constexpr std::size_t kLogBytes = 4096;        // of the end of what a process prints
 constexpr std::size_t kMostResult = std::size_t{64} << 20;
 
 /// Both ends of a pipe; -1 where there is none.
@@ -77,6 +77,7 @@ void write_all(int end, const std::string& text) {
   ::setrlimit(RLIMIT_CORE, &no_core);
   if (limits.bytes > 0) limit_memory(limits.bytes);
   write_all(result_end, work());
+  ::close(result_end);  // now, since the end of a process with much memory takes a while
   _exit(EXIT_SUCCESS);
 }
 
@@ -103,6 +104,10 @@ void kill_group(pid_t process, int signal_number) {
 IsolatedProcesses::~IsolatedProcesses() {
   ask_to_stop();  // so that they take their temporary files with them
   while (!children_.empty()) wait(std::chrono::milliseconds(100));
+  for (const int process : ending_) {
+    while (::waitpid(process, nullptr, 0) < 0 && errno == EINTR) {
+    }
+  }
 }
 
 bool IsolatedProcesses::start(std::size_t ticket, const std::function<std::string()>& work) {
@@ -137,25 +142,26 @@ void IsolatedProcesses::read_from(Child& child) {
   drain(child.log_end, child.log, kLogBytes);
 }
 
-ProcessOutcome IsolatedProcesses::reaped(Child& child) {
-  int status = 0;
-  while (::waitpid(child.process, &status, 0) < 0 && errno == EINTR) {
+ProcessOutcome IsolatedProcesses::ended(Child& child) {
+  ProcessOutcome outcome;
+  outcome.was_asked = child.is_timed_out;
+  if (child.result.empty()) {
+    int status = 0;
+    while (::waitpid(child.process, &status, 0) < 0 && errno == EINTR) {
+    }
+    outcome.signal = WIFSIGNALED(status) ? WTERMSIG(status) : 0;
+    outcome.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : 0;
+    outcome.end = child.is_timed_out ? ProcessOutcome::End::TimedOut : ProcessOutcome::End::Crashed;
+  } else {
+    ending_.push_back(child.process);  // there is no need to wait for it
   }
   read_from(child);
   close_end(child.result_end);
   close_end(child.log_end);
-  ProcessOutcome outcome;
   outcome.ticket = child.ticket;
   outcome.seconds = std::chrono::duration<double>(Clock::now() - child.began).count();
   outcome.result = std::move(child.result);
   outcome.log = std::move(child.log);
-  outcome.signal = WIFSIGNALED(status) ? WTERMSIG(status) : 0;
-  outcome.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : 0;
-  const bool is_whole = outcome.signal == 0 && outcome.exit_code == 0 && !outcome.result.empty();
-  outcome.was_asked = child.is_timed_out;
-  outcome.end = is_whole             ? ProcessOutcome::End::Finished
-                : child.is_timed_out ? ProcessOutcome::End::TimedOut
-                                     : ProcessOutcome::End::Crashed;
   return outcome;
 }
 
@@ -193,10 +199,11 @@ std::vector<ProcessOutcome> IsolatedProcesses::wait(std::chrono::milliseconds at
   std::erase_if(children_, [&](Child& child) {
     read_from(child);
     if (child.result_end >= 0) return false;
-    outcomes.push_back(reaped(child));
+    outcomes.push_back(ended(child));
     return true;
   });
   enforce_limits();
+  std::erase_if(ending_, [](int process) { return ::waitpid(process, nullptr, WNOHANG) != 0; });
   return outcomes;
 }
 

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <sys/types.h>
-
 #include <chrono>
 #include <cstdint>
 #include <functional>
@@ -30,12 +28,16 @@ struct ProcessOutcome {
   double seconds = 0;
 };
 
-/// Runs work in processes of its own, which are copies of this one (fork): whatever becomes of them, this
-/// one goes on. It must have one thread when it starts one. They do not outlive this object, nor this
-/// process.
+/// Runs work in processes of its own, which are copies of this one (fork): whatever becomes of
+/// them, this one goes on. They do not outlive this object, nor this process.
+///
+/// Of a process with threads the copy has one only, and waits for ever for what another one held.
+/// So whoever starts work here runs none by TBB; OpenBLAS, which has threads from its start, ends
+/// them for a fork by itself.
 class IsolatedProcesses {
  public:
   explicit IsolatedProcesses(ProcessLimits limits) : limits_(limits) {}
+
   IsolatedProcesses(const IsolatedProcesses&) = delete;
   IsolatedProcesses& operator=(const IsolatedProcesses&) = delete;
   ~IsolatedProcesses();
@@ -58,7 +60,7 @@ class IsolatedProcesses {
 
   struct Child {
     std::size_t ticket = 0;
-    pid_t process = 0;
+    int process = 0;  ///< its number
     int result_end = -1;
     int log_end = -1;
     std::string result;
@@ -70,10 +72,11 @@ class IsolatedProcesses {
 
   void enforce_limits();
   static void read_from(Child& child);
-  static ProcessOutcome reaped(Child& child);
+  ProcessOutcome ended(Child& child);
 
   ProcessLimits limits_;
   std::vector<Child> children_;
+  std::vector<int> ending_;  ///< processes that have given their results
 };
 
 }  // namespace morphbake

@@ -10,7 +10,7 @@ namespace morphbake {
 /// Reads a text file line by line, of which none is kept and none may be endless.
 class LineReader {
  public:
-  static constexpr std::size_t kLongest = std::size_t{1} << 20;  ///< bytes of a line
+  static constexpr std::size_t kLongest = std::size_t{16} << 20;  ///< bytes of a line
 
   /// @throws BakeError "files.missing", "files.not-a-file", "files.unreadable"
   explicit LineReader(const std::filesystem::path& file);
@@ -21,9 +21,13 @@ class LineReader {
   bool next();
 
   const std::string& line() const { return line_; }  ///< without its end
-  int number() const { return number_; }              ///< of the line, from 1
-  std::uint64_t offset() const { return offset_; }    ///< of its first byte
+
+  int number() const { return number_; }  ///< of the line, from 1
+
+  std::uint64_t offset() const { return offset_; }  ///< of its first byte
+
   bool is_too_long() const { return is_too_long_; }
+
   bool is_ended() const { return is_ended_; }  ///< whether a line break follows
 
  private:

@@ -66,7 +66,7 @@ Manifest read_lines(const fs::path& list, const fs::path& recipe) {
       if (name.empty()) name = default_name(line.recipe);
       if (names.take(name, at, kNameHint)) places.push_back({reader.offset(), reader.number()});
     } catch (const BakeError& error) {
-      names.complain(error, reader.number());
+      names.complain(error);
     }
   }
   Manifest manifest;
@@ -123,7 +123,8 @@ Manifest read_manifest(const fs::path& named, const fs::path& table) {
     return read_pattern(named);
   }
   if (fs::is_directory(named, error)) {
-    refuse(named, "this is a folder", fmt::format("write '{}/**/*.json' in quotes", named.string()));
+    refuse(named, "this is a folder",
+           fmt::format("write '{}/**/*.json' in quotes", named.string()));
   }
   read_file_start(named, 1);  // says what is wrong with it
   if (named.extension() == ".json") {

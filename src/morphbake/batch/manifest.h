@@ -20,10 +20,10 @@ struct BatchEntry {
 
 /// What a batch bakes, in order.
 ///
-/// Only names are kept; everything else of an entry is read from its file again, so that a list of a
-/// million recipes takes little memory.
+/// Only names are kept; everything else of an entry is read from its file again, so that a list of
+/// a million recipes takes little memory.
 struct Manifest {
-  std::vector<std::string> names;                ///< all different
+  std::vector<std::string> names;               ///< all different
   std::function<BatchEntry(std::size_t)> read;  ///< an entry but for its name
 };
 
@@ -32,13 +32,16 @@ BatchEntry entry_of(const Manifest& manifest, std::size_t index);
 
 /// Reads a list of recipes.
 ///
-/// @param named  a list (.jsonl: a recipe's file name, or {"recipe", "name", "set"}, a line), a recipe
+/// @param named  a list (.jsonl: a recipe's file name, or {"recipe", "name", "set"}, a line), a
+/// recipe
 ///               (.json), or a pattern of recipes, as files_matching has it
-/// @param table  with a recipe: a row is the recipe with changes (.csv or .jsonl), whose columns are
+/// @param table  with a recipe: a row is the recipe with changes (.csv or .jsonl), whose columns
+/// are
 ///               JSON pointers and "name"; "" for none
 /// @throws BakeError with all problems found, up to 100: "batch.empty", "batch.bad-name",
-///         "batch.duplicate-name", "batch.wrong-type", "batch.unknown-field", "batch.missing-field",
-///         "batch.bad-table", "batch.line-too-long", "json.syntax", "files.missing", ...
+///         "batch.duplicate-name", "batch.wrong-type", "batch.unknown-field",
+///         "batch.missing-field", "batch.bad-table", "batch.line-too-long", "json.syntax",
+///         "files.missing", ...
 Manifest read_manifest(const std::filesystem::path& named, const std::filesystem::path& table);
 
 }  // namespace morphbake

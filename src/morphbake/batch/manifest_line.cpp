@@ -10,9 +10,13 @@
 namespace morphbake {
 namespace {
 
+/// A line of a report has texts that are longer than those of lists.
+constexpr JsonLimits kLimits = {std::size_t{1} << 16, JsonLimits{}.values};
+
 /// Beside these a line of a report has what came of the recipe.
 const std::vector<std::string> kFields = {"recipe", "name", "set"};
-constexpr const char* kHint = R"(write "file.json", or {"recipe": "file.json", "name": "nose", "set": {"/timeline/duration": 2}})";
+constexpr const char* kHint =
+    R"(write "file.json", or {"recipe": "file.json", "name": "nose", "set": {"/timeline/duration": 2}})";
 
 [[noreturn]] void fail(const char* code, Location at, std::string pointer, std::string message,
                        std::string hint = kHint) {
@@ -22,7 +26,7 @@ constexpr const char* kHint = R"(write "file.json", or {"recipe": "file.json", "
 
 Json parsed(const std::string& text, const Location& at) {
   try {
-    return parse_json(text, at.file);
+    return parse_json(text, at.file, kLimits);
   } catch (const BakeError& error) {
     std::vector<Problem> problems = error.problems();
     for (Problem& problem : problems) problem.location.line = at.line;

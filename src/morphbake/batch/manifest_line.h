@@ -17,7 +17,8 @@ struct ManifestLine {
 
 /// Reads a line of a list of recipes. A line of a batch's report is one as well.
 ///
-/// @throws BakeError "batch.wrong-type", "batch.unknown-field", "batch.missing-field", "json.syntax",
+/// @throws BakeError "batch.wrong-type", "batch.unknown-field", "batch.missing-field",
+/// "json.syntax",
 ///         ... with the line that `at` has
 ManifestLine read_manifest_line(const std::string& text, const Location& at);
 

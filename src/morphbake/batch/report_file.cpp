@@ -154,8 +154,7 @@ std::vector<std::string> ReportIndex::names() const {
   names.reserve(places_.size());
   for (const auto& [name, place] : places_) names.push_back(name);
   std::ranges::sort(names);
-  const auto repeated = std::ranges::unique(names);
-  names.erase(repeated.begin(), repeated.end());
+  names.erase(std::unique(names.begin(), names.end()), names.end());
   return names;
 }
 

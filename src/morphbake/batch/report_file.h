@@ -48,7 +48,8 @@ class ReportIndex {
  public:
   explicit ReportIndex(const std::vector<std::filesystem::path>& reports);
 
-  /// The lines of a name, one a report that has it, from the last report that was named to the first.
+  /// The lines of a name, one a report that has it, from the last report that was named to the
+  /// first.
   std::vector<ReportLine> lines_of(const std::string& name) const;
 
   /// All names, sorted.

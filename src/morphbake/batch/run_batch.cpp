@@ -17,6 +17,7 @@
 #include "morphbake/batch/connectivity_keys.h"
 #include "morphbake/batch/file_states.h"
 #include "morphbake/batch/isolated_process.h"
+#include "morphbake/diagnostics/observer.h"
 #include "morphbake/files/file_lock.h"
 #include "morphbake/files/files.h"
 #include "morphbake/json/json.h"
@@ -37,10 +38,13 @@ int shard_of(const std::string& hash, int count) {
 }
 
 /// The entries of a list that are in a shard: those that share a connectivity are in one.
+///
+/// @throws Cancelled
 std::vector<std::size_t> entries_in(const Shard& shard, const Manifest& manifest,
-                                    ConnectivityKeys& keys) {
+                                    ConnectivityKeys& keys, const BatchObserver& observer) {
   std::vector<std::size_t> entries;
   for (std::size_t i = 0; i < manifest.names.size(); ++i) {
+    if (observer.is_cancelled && observer.is_cancelled()) throw Cancelled();
     if (shard.count > 1) {
       const std::string key = keys.of(entry_of(manifest, i));
       const std::string hash = key.empty() ? content_hash(manifest.names[i]) : key;
@@ -53,7 +57,7 @@ std::vector<std::size_t> entries_in(const Shard& shard, const Manifest& manifest
 
 Problem crash_of(const ProcessOutcome& outcome, const BatchOptions& options) {
   Problem problem;
-  if (outcome.end == ProcessOutcome::End::TimedOut) {
+  if (outcome.was_asked) {
     problem.code = "batch.timeout";
     problem.message = fmt::format("it took more than {:g} s", options.timeout);
     problem.hint = "allow more with --timeout, or ask for less: fewer frames, smaller meshes";
@@ -61,15 +65,16 @@ Problem crash_of(const ProcessOutcome& outcome, const BatchOptions& options) {
   }
   problem.code = "batch.crashed";
   const char* name = outcome.signal > 0 ? ::sigdescr_np(outcome.signal) : nullptr;
-  problem.message =
-      outcome.signal > 0
-          ? fmt::format("its process was ended by signal {} ({})", outcome.signal, name ? name : "?")
-          : fmt::format("its process ended with {} and no result", outcome.exit_code);
-  problem.hint = outcome.signal == 9
-                     ? "the system may have run out of memory: run fewer at once (-j), or limit "
-                       "each (--memory)"
-                     : "bake it by itself; a crash is a bug of morphbake: please report it with the "
-                       "recipe and its sources";
+  problem.message = outcome.signal > 0
+                        ? fmt::format("its process was ended by signal {} ({})", outcome.signal,
+                                      name ? name : "?")
+                        : fmt::format("its process ended with {} and no result", outcome.exit_code);
+  problem.hint =
+      outcome.signal == 9
+          ? "the system may have run out of memory: run fewer at once (-j), or limit "
+            "each (--memory)"
+          : "bake it by itself; a crash is a bug of morphbake: please report it with the "
+            "recipe and its sources";
   return problem;
 }
 
@@ -83,13 +88,13 @@ class BatchRun {
         folder_(make_batch_folder(options.folder)),
         report_(report_file(folder_, options.shard)),
         earlier_(read_reports()),
-        chosen_(entries_in(options.shard, manifest, keys_)),
+        chosen_(entries_in(options.shard, manifest, keys_, observer)),
         queue_(chosen_),
         processes_({options.timeout, options.memory * 1e9}) {
     progress_.total = chosen_.size();
     const int cores = static_cast<int>(std::thread::hardware_concurrency());
-    most_ = static_cast<std::size_t>(
-        std::max(options.processes > 0 ? options.processes : cores, 1));
+    most_ =
+        static_cast<std::size_t>(std::max(options.processes > 0 ? options.processes : cores, 1));
   }
 
   BatchResult run();
@@ -112,7 +117,9 @@ class BatchRun {
   void note(const JobResult& result);
   void stop();
   void tell_progress();
+
   bool is_cancelled() const { return observer_.is_cancelled && observer_.is_cancelled(); }
+
   BatchResult finish(bool is_alone) const;
 
   const Manifest& manifest_;
@@ -142,7 +149,8 @@ ReportIndex BatchRun::read_reports() {
   return ReportIndex(reports);
 }
 
-/// @param before  receives what was baked before, when only a look at the recipe can tell whether it
+/// @param before  receives what was baked before, when only a look at the recipe can tell whether
+/// it
 ///                still holds
 bool BatchRun::is_there_already(const BatchEntry& entry, std::optional<BatchRecord>& before) {
   const std::string request = begun_record(entry, folder_, options_).request;
@@ -191,9 +199,8 @@ BatchRun::Step BatchRun::take_next() {
 }
 
 BatchRun::Step BatchRun::start(std::size_t entry, Running next) {
-  const bool is_started = processes_.start(entry, [&] {
-    return result_to_text(run_job(next.job, options_, observer_.is_cancelled));
-  });
+  const bool is_started = processes_.start(
+      entry, [&] { return result_to_text(run_job(next.job, options_, observer_.is_cancelled)); });
   if (!is_started) {
     queue_.put_back({entry, next.makes});
     return Step::NoProcess;
@@ -221,8 +228,7 @@ void BatchRun::settle(const ProcessOutcome& outcome) {
   const bool was_stopped = result && result->kind == JobResult::Kind::Cancelled;
   if (was_stopped && !outcome.was_asked && is_cancelled()) return;
   if (!result || was_stopped) {
-    result = JobResult{JobResult::Kind::Failed,
-                       begun_record(running.job.entry, folder_, options_)};
+    result = JobResult{JobResult::Kind::Failed, begun_record(running.job.entry, folder_, options_)};
     result->record.problems = {crash_of(outcome, options_)};
     result->record.problems.front().location.file = running.job.entry.recipe.string();
     result->record.log = outcome.log;
@@ -277,6 +283,9 @@ BatchResult BatchRun::finish(bool is_alone) const {
 }
 
 BatchResult BatchRun::run() {
+  if (const FileLock alone(folder_, FileLock::Kind::Alone, false); alone.is_held()) {
+    remove_temporaries(folder_);  // of batches that were killed
+  }
   auto presence = std::make_optional<FileLock>(folder_, FileLock::Kind::Shared, true);
   make_report(report_);
   while (true) {
@@ -287,7 +296,10 @@ BatchResult BatchRun::run() {
     const Step step = processes_.running() < most_ ? take_next() : Step::Nothing;
     if (processes_.running() == 0 && step == Step::Nothing) break;
     if (processes_.running() == 0 && step == Step::NoProcess) {
-      throw BakeError(Problem{Severity::Error, "batch.no-process", {}, "the system gives no process",
+      throw BakeError(Problem{Severity::Error,
+                              "batch.no-process",
+                              {},
+                              "the system gives no process",
                               "there are too many already, or no memory is left"});
     }
     const auto at_most = step == Step::Taken ? std::chrono::milliseconds(0) : kTick;
@@ -304,7 +316,14 @@ BatchResult BatchRun::run() {
 
 BatchResult run_batch(const Manifest& manifest, const BatchOptions& options,
                       const BatchObserver& observer) {
-  return BatchRun(manifest, options, observer).run();
+  try {
+    return BatchRun(manifest, options, observer).run();
+  } catch (const Cancelled&) {  // before anything was begun
+    BatchResult nothing;
+    nothing.progress.total = manifest.names.size();
+    nothing.is_interrupted = true;
+    return nothing;
+  }
 }
 
 }  // namespace morphbake

@@ -13,10 +13,10 @@ namespace morphbake {
 /// How far a batch is.
 struct BatchProgress {
   std::size_t total = 0;
-  std::size_t done = 0;       ///< with those that were unchanged, and those that failed
+  std::size_t done = 0;  ///< with those that were unchanged, and those that failed
   std::size_t failed = 0;
-  std::size_t unchanged = 0;  ///< was there already
-  double per_second = 0;      ///< recipes that were baked
+  std::size_t unchanged = 0;           ///< was there already
+  double per_second = 0;               ///< recipes that were baked
   std::optional<double> seconds_left;  ///< none before the first has ended
 };
 
@@ -38,9 +38,9 @@ struct BatchResult {
 
 /// Bakes a list of recipes, each in a process of its own, into folders of their names.
 ///
-/// What an earlier run has baked is left as it is if all that went into it is unchanged. The report is
-/// written as recipes end, so that whatever ends this process loses only those that it was at. This
-/// process must have one thread, and stays so.
+/// What an earlier run has baked is left as it is if all that went into it is unchanged. The report
+/// is written as recipes end, so that whatever ends this process loses only those that it was at.
+/// This process may have no other thread at work.
 /// @throws BakeError "output.unwritable", "batch.no-process"
 BatchResult run_batch(const Manifest& manifest, const BatchOptions& options,
                       const BatchObserver& observer);

@@ -4,9 +4,9 @@
 
 namespace morphbake {
 
-/// A lock (flock) on a file, which is made, or on a folder that is there; it ends with this object or
-/// its process. Processes that do not ask are not held back. Where the file system knows no locks, none
-/// is held.
+/// A lock (flock) on a file, which is made, or on a folder that is there; it ends with this object
+/// or its process. Processes that do not ask are not held back. Where the file system knows no
+/// locks, none is held.
 class FileLock {
  public:
   enum class Kind { Shared, Alone };

@@ -3,10 +3,17 @@
 #include <cholmod.h>
 #include <fmt/core.h>
 
+#include <algorithm>
+#include <cstring>
 #include <memory>
+#include <optional>
 #include <span>
+#include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
+#include "morphbake/cache/content_hash.h"
 #include "morphbake/diagnostics/problem.h"
 
 // From OpenBLAS, whose headers Debian keeps in a folder of the alternative that is chosen.
@@ -99,6 +106,68 @@ Eigen::SparseMatrix<double> upper_of(const Eigen::SparseMatrix<double>& matrix,
   return upper;
 }
 
+template <typename Number>
+std::string_view bytes_of(const Number* first, std::size_t count) {
+  return {reinterpret_cast<const char*>(first), count * sizeof(Number)};
+}
+
+/// The order in which unknowns are eliminated, which depends on where the matrix has entries.
+class KeptOrder {
+ public:
+  KeptOrder(const Eigen::SparseMatrix<double>& upper, Ordering ordering, const StageCache& cache)
+      : cache_(cache), rows_(static_cast<std::size_t>(upper.rows())) {
+    constexpr std::size_t kWorthKeeping = 20000;  // rows: the order of fewer is found in 5 ms
+    if (!cache.is_on() || rows_ < kWorthKeeping) return;
+    const auto entries = static_cast<std::size_t>(upper.nonZeros());
+    key_ = content_hash(fmt::format("order {} {} {} {}", static_cast<int>(ordering), program_hash(),
+                                    content_hash(bytes_of(upper.outerIndexPtr(), rows_ + 1)),
+                                    content_hash(bytes_of(upper.innerIndexPtr(), entries))));
+    read();
+  }
+
+  /// Row at each place, or nothing when it is to be found.
+  const std::vector<int>& known() const { return known_; }
+
+  void keep(std::span<const int> order) const {
+    if (key_.empty() || !known_.empty()) return;
+    try {
+      cache_.keep(key_, {"{}", {std::string(bytes_of(order.data(), order.size()))}});
+    } catch (const BakeError&) {
+      // The next one finds it again; the bake tells of a cache that cannot be written.
+    }
+  }
+
+ private:
+  void read() {
+    const std::optional<CacheEntry> entry = cache_.find(key_, {});
+    if (!entry || entry->blobs.size() != 1) return;
+    const std::string& bytes = entry->blobs[0];
+    if (bytes.size() != rows_ * sizeof(int)) return;
+    std::vector<int> order(rows_);
+    std::memcpy(order.data(), bytes.data(), bytes.size());
+    std::vector<bool> has(rows_, false);
+    for (const int row : order) {
+      if (row < 0 || static_cast<std::size_t>(row) >= rows_) return;
+      has[static_cast<std::size_t>(row)] = true;
+    }
+    if (std::find(has.begin(), has.end(), false) == has.end()) known_ = std::move(order);
+  }
+
+  const StageCache& cache_;
+  std::size_t rows_;
+  std::string key_;
+  std::vector<int> known_;
+};
+
+cholmod_factor* analysed(cholmod_sparse& matrix, Workspace& workspace,
+                         const std::vector<int>& order) {
+  if (order.empty()) return cholmod_analyze(&matrix, &workspace.common);
+  workspace.common.nmethods = 1;
+  workspace.common.method[0].ordering = CHOLMOD_GIVEN;
+  std::vector<int> given = order;  // CHOLMOD takes a pointer that is not const
+  return cholmod_analyze_p(&matrix, given.data(), nullptr, 0, &workspace.common);
+}
+
 template <class Scalar>
 PackedFactor<Scalar> packed(const cholmod_factor& factor, const std::vector<int>& free,
                             std::size_t row_count) {
@@ -124,7 +193,7 @@ Ordering cheaper_ordering(Eigen::Index rows, double solves) {
 }
 
 CholeskyFactor::CholeskyFactor(const SymmetricSystem& system, Precision precision,
-                               Ordering ordering) {
+                               Ordering ordering, const StageCache& orders) {
   // With several threads OpenBLAS splits sums by their number, and so would the bytes differ.
   openblas_set_num_threads(1);
   const std::vector<int> free = free_rows(system);
@@ -132,12 +201,14 @@ CholeskyFactor::CholeskyFactor(const SymmetricSystem& system, Precision precisio
   Eigen::SparseMatrix<double> upper = upper_of(system.matrix, free);
   cholmod_sparse view = upper_view(upper);
   Workspace workspace(ordering);
-  cholmod_factor* made = cholmod_analyze(&view, &workspace.common);
+  KeptOrder order(upper, ordering, orders);
+  cholmod_factor* made = analysed(view, workspace, order.known());
   const auto release = [&workspace](cholmod_factor* factor) {
     cholmod_free_factor(&factor, &workspace.common);
   };
   const std::unique_ptr<cholmod_factor, decltype(release)> factor(made, release);
   workspace.check(made != nullptr, "analysed");
+  order.keep({static_cast<const int*>(made->Perm), free.size()});
   workspace.check(cholmod_factorize(&view, made, &workspace.common) != 0, "factorised");
   const std::size_t row_count = system.singular_block.size();
   if (precision == Precision::Single) {

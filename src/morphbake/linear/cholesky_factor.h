@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <variant>
 
+#include "morphbake/cache/stage_cache.h"
 #include "morphbake/linear/packed_factor.h"
 #include "morphbake/linear/symmetric_system.h"
 
@@ -28,11 +29,14 @@ Ordering cheaper_ordering(Eigen::Index rows, double solves);
 /// when the right-hand side sums to 0 over the block; the caller adds the constant that it wants.
 class CholeskyFactor {
  public:
+  /// @param orders  where orders of elimination are kept: finding one takes most of the time that a
+  ///                large factor takes, and the factor is the same
   /// @throws BakeError "linear.out-of-memory", "linear.not-definite"
   /// @cost   K_L of a surface: O(#X^1.5) flops, 540-1000 bytes a row, half of it with Single; one
   ///         thread
   explicit CholeskyFactor(const SymmetricSystem& system, Precision precision = Precision::Double,
-                          Ordering ordering = Ordering::MinimumDegree);
+                          Ordering ordering = Ordering::MinimumDegree,
+                          const StageCache& orders = {});
 
   /// May be called from several threads at once.
   ///

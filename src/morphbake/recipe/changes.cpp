@@ -60,7 +60,9 @@ Json* child_of(Json& owner, const std::string& step, const std::string& at, Refu
 }
 
 /// Puts a value in; says why not where it cannot.
-std::optional<Refusal> put_in(Json& document, const RecipeChange& change) {
+///
+/// @param made  receives the pointer of the outermost thing that was not there before
+std::optional<Refusal> put_in(Json& document, const RecipeChange& change, std::string& made) {
   const std::optional<std::vector<std::string>> steps = steps_of(change.pointer);
   if (!steps) {
     return Refusal{fmt::format("{} is no JSON pointer", shown(Json(change.pointer))),
@@ -75,6 +77,7 @@ std::optional<Refusal> put_in(Json& document, const RecipeChange& change) {
   std::string pointer;
   Refusal refusal;
   for (const std::string& step : *steps) {
+    if (made.empty() && at->is_object() && !at->contains(step)) made = child_pointer(pointer, step);
     at = child_of(*at, step, pointer, refusal);
     if (at == nullptr) return refusal;
     pointer = child_pointer(pointer, step);
@@ -88,14 +91,16 @@ std::optional<Refusal> put_in(Json& document, const RecipeChange& change) {
 WholeRecipe changed(WholeRecipe whole, const std::vector<RecipeChange>& changes) {
   std::vector<Problem> problems;
   for (const RecipeChange& change : changes) {
-    if (const std::optional<Refusal> refusal = put_in(whole.document, change)) {
+    std::string made;
+    if (const std::optional<Refusal> refusal = put_in(whole.document, change, made)) {
       Location at = change.at;
       at.pointer = change.pointer;
       problems.push_back(
           {Severity::Error, "recipe.bad-pointer", at, refusal->message, refusal->hint});
       continue;
     }
-    whole.parts.push_back({change.pointer, change.at.file, change.at.line, change.at.column});
+    const std::string& pointer = made.empty() ? change.pointer : made;
+    whole.parts.push_back({pointer, change.at.file, change.at.line, change.at.column});
   }
   if (!problems.empty()) throw BakeError(std::move(problems));
   return whole;

@@ -22,7 +22,8 @@ struct RecipeChange {
 ///         "recipe.wrong-type", "recipe.out-of-range", "recipe.missing-field",
 ///         "recipe.unknown-name", "recipe.bad-pointer", ...
 /// @param changes  in their order, made once all that the recipe includes is read
-Recipe read_recipe(const std::filesystem::path& file, const std::vector<RecipeChange>& changes = {});
+Recipe read_recipe(const std::filesystem::path& file,
+                   const std::vector<RecipeChange>& changes = {});
 
 /// A copy of `recipe` that writes into `folder`, each output under its own file name.
 Recipe redirect_outputs(Recipe recipe, const std::filesystem::path& folder);

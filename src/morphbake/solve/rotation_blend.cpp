@@ -126,7 +126,8 @@ void RotationBlend::factorise() {
     constexpr double kSolvesPerFrame = 8;
     factor_ = std::make_shared<const CholeskyFactor>(
         equations_, Precision::Single,
-        cheaper_ordering(equations_.matrix.rows(), kSolvesPerFrame * effort_.frames));
+        cheaper_ordering(equations_.matrix.rows(), kSolvesPerFrame * effort_.frames),
+        effort_.orders);
   } else {
     multigrid_ = std::make_unique<const Multigrid>(equations_);
   }

@@ -48,6 +48,7 @@ class RotationBlend {
   struct Effort {
     bool makes_factor = true;  ///< else they are solved by conjugate gradients, with less memory
     int frames = 1;            ///< that will be asked for
+    StageCache orders = {};    ///< as of a factor
   };
 
   /// @param mesh          must outlive this

@@ -2,6 +2,8 @@
 
 #include <string>
 
+#include "morphbake/cache/stage_cache.h"
+
 namespace morphbake {
 
 /// How the linear systems are solved; `auto` says in the report what it took and why.
@@ -28,6 +30,8 @@ struct SolveOptions {
   bool every_frame = false;
   /// How many there are to solve: no option of a user's.
   int frames = 1;
+  /// Where orders of factors are kept: no option of a user's.
+  StageCache orders = {};
 };
 
 }  // namespace morphbake

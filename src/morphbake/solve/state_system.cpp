@@ -119,7 +119,8 @@ StateSystem rotation_states(const MorphableMesh& mesh,
   const DisplacementSystem& system = *states.displacements;
   const auto blend = std::make_shared<const RotationBlend>(
       mesh, deformations, system, reference.col(0),
-      RotationBlend::Effort{allows_factor(system, options), options.frames}, observer);
+      RotationBlend::Effort{allows_factor(system, options), options.frames, options.orders},
+      observer);
   if (!system.holds()) states.factor = blend->factor();
   const bool is_mix = (reference.col(0).array() != 0).count() > 1;
   if (system.holds() && is_mix) {

@@ -109,7 +109,7 @@ SurfaceSolver::SurfaceSolver(const DisplacementSystem& system, const SolveOption
     } else {
       method_ = std::make_shared<const CholeskyFactor>(
           system.equations(), is_single ? Precision::Single : Precision::Double,
-          cheaper_ordering(system.equations().matrix.rows(), options.frames));
+          cheaper_ordering(system.equations().matrix.rows(), options.frames), options.orders);
     }
   } else if (choice_.solver == Solver::ConjugateGradients) {
     if (system.holds()) {

@@ -64,10 +64,19 @@ TEST(CacheEntry, ThatIsDamagedAnywhereIsNone) {
 }
 
 TEST(CacheEntry, WithAHashButOtherwiseWrongIsNone) {
-  for (const std::string body :
-       {"", "\n", "[]\n", "{}\n", R"({"facts":{}})" "\n", R"({"facts":{},"blobs":[1]})" "\n",
-        R"({"facts":{},"blobs":[-1]})" "\nx", R"({"facts":{},"blobs":[18446744073709551615]})" "\nx",
-        R"({"facts":{},"blobs":["1"]})" "\nx", R"({"facts":{},"blobs":[]})" "\nx"}) {
+  for (const std::string body : {"", "\n", "[]\n", "{}\n",
+                                 R"({"facts":{}})"
+                                 "\n",
+                                 R"({"facts":{},"blobs":[1]})"
+                                 "\n",
+                                 R"({"facts":{},"blobs":[-1]})"
+                                 "\nx",
+                                 R"({"facts":{},"blobs":[18446744073709551615]})"
+                                 "\nx",
+                                 R"({"facts":{},"blobs":["1"]})"
+                                 "\nx",
+                                 R"({"facts":{},"blobs":[]})"
+                                 "\nx"}) {
     const std::string bytes = "morphbake cache 1 " + content_hash(body) + "\n" + body;
     EXPECT_FALSE(entry_from_bytes(bytes)) << body;
   }

@@ -19,6 +19,10 @@ TEST(ExitCode, OfAnUnknownModuleIsABug) {
   EXPECT_EQ(exit_code_of("rec"), ExitCode::Bug);
 }
 
+TEST(ExitCode, OfAListOfRecipesIsThatOfRecipes) {
+  EXPECT_EQ(exit_code_of("batch.bad-name"), ExitCode::Recipe);
+}
+
 TEST(ExitCode, OfWarningsAloneIsABug) {
   EXPECT_EQ(exit_code_of({problem_of(Severity::Warning, "recipe.odd")}), ExitCode::Bug);
 }

@@ -119,5 +119,33 @@ TEST(Terminal, ClearsTheBarBeforeAnyLine) {
   EXPECT_EQ(text.log, "\r\033[K[############            ]  50 %  solve\r\033[Kdone\n");
 }
 
+TEST(Terminal, TellsHowFarABatchIs) {
+  BatchProgress progress;
+  progress.total = 1000;
+  progress.done = 420;
+  progress.failed = 3;
+  progress.per_second = 2.5;
+  progress.seconds_left = 232;
+  const auto told = [&](const TerminalSettings& settings) {
+    return printed(settings,
+                   [&](Terminal& terminal) {
+                     terminal.progress(progress);
+                     terminal.progress(progress);  // too soon for another line
+                   })
+        .log;
+  };
+  EXPECT_EQ(told({}), "420 of 1000, 3 failed, 2.5 a second, 4 min left\n");
+  EXPECT_EQ(told({LogFormat::Json}),
+            R"({"severity":"info","batch":{"done":420,"failed":3,"unchanged":0,"total":1000,)"
+            R"("per_second":2.5,"seconds_left":232.0}})"
+            "\n");
+  TerminalSettings quiet;
+  quiet.quiet = true;
+  EXPECT_EQ(told(quiet), "");
+  TerminalSettings bar;
+  bar.show_bar = true;
+  EXPECT_NE(told(bar).find("]  42 %  420 of 1000, 3 failed"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace morphbake::cli

@@ -4,6 +4,8 @@
 
 #include "morphbake/diagnostics/problem.h"
 #include "morphbake/differential/laplacian.h"
+#include "morphbake/files/files.h"
+#include "morphbake/files/temporary_folder.h"
 #include "morphbake/linear/cholesky_factor.h"
 #include "morphbake/linear/iterate.h"
 #include "morphbake/linear/multigrid.h"
@@ -106,6 +108,31 @@ TEST(CholeskyFactor, OfSingleNumbersTakesHalfTheRoom) {
   const auto exact = static_cast<double>(CholeskyFactor(system).bytes());
   const auto single = static_cast<double>(CholeskyFactor(system, Precision::Single).bytes());
   EXPECT_LT(single, 0.6 * exact);
+}
+
+TEST(CholeskyFactor, IsTheSameByAnOrderThatWasKept) {
+  const Mesh mesh = test::torus(220, 100);
+  const OneRings rings = one_rings({static_cast<int>(mesh.positions.rows()), mesh.triangles});
+  const SymmetricSystem system{symmetric_laplacian(rings), connected_components(rings).label, 1};
+  const TemporaryFolder folder("order-test");
+  const StageCache cache({folder.path(), std::uintmax_t{1} << 30});
+  const Eigen::MatrixXd b = system.matrix * mesh.positions;
+  for (const Ordering ordering : {Ordering::MinimumDegree, Ordering::NestedDissection}) {
+    const int before = cache.contents().entries;
+    const Eigen::MatrixXd found = CholeskyFactor(system, Precision::Double, ordering).solve(b);
+    EXPECT_EQ(CholeskyFactor(system, Precision::Double, ordering, cache).solve(b), found);
+    EXPECT_EQ(cache.contents().entries, before + 1);
+    EXPECT_EQ(CholeskyFactor(system, Precision::Double, ordering, cache).solve(b), found);
+    EXPECT_EQ(cache.contents().entries, before + 1);
+  }
+  // An entry that is whole but no order is passed over.
+  for (const auto& file : std::filesystem::recursive_directory_iterator(folder.path())) {
+    if (!file.is_regular_file()) continue;
+    const std::string wrong(static_cast<std::size_t>(system.matrix.rows() - 1) * sizeof(int), '\0');
+    replace_unsynced(file.path(), entry_to_bytes({"{}", {wrong}}));
+  }
+  EXPECT_EQ(CholeskyFactor(system, Precision::Double, Ordering::NestedDissection, cache).solve(b),
+            CholeskyFactor(system, Precision::Double, Ordering::NestedDissection).solve(b));
 }
 
 TEST(CholeskyFactor, TakesASystemWithoutUnknowns) {
