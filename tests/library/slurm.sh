@@ -75,6 +75,7 @@ start_slurm() { # FOLDER NODES CPUS: returns when all nodes take jobs
 }
 
 start_controller() { slurmctld -f "$SLURM_CONF" >>"$slurm/slurmctld.out" 2>&1; }
+stop_controller() { end "$(cat "$slurm/slurmctld.pid" 2>/dev/null)"; } # it saves its state
 start_node() { slurmd -f "$SLURM_CONF" -N "n$1" >>"$slurm/n$1.out" 2>&1; }
 
 
@@ -100,15 +101,18 @@ kill_node() { # N
   rm -f "$slurm/n$1.pid"
 }
 
+end() { # PID
+  [ -n "$1" ] && kill "$1" 2>/dev/null || return 0
+  for _ in $(seq 100); do kill -0 "$1" 2>/dev/null || return 0; sleep 0.1; done
+  kill -9 "$1" 2>/dev/null
+}
+
 stop_slurm() { # leaves no process; the folder is the caller's
-  local node pid
+  local node
   [ -n "${slurm-}" ] || return 0
   for node in $(seq "$slurm_nodes"); do [ -e "$slurm/n$node.pid" ] && kill_node "$node"; done
   for node in $(seq "$slurm_nodes"); do processes_of_node "$node" | xargs -r kill -9 2>/dev/null; done
-  for pid in $(cat "$slurm/slurmctld.pid" "$slurm/munge/pid" 2>/dev/null); do
-    kill "$pid" 2>/dev/null
-    for _ in $(seq 50); do kill -0 "$pid" 2>/dev/null || break; sleep 0.1; done
-    kill -9 "$pid" 2>/dev/null
-  done
+  stop_controller
+  end "$(cat "$slurm/munge/pid" 2>/dev/null)"
   unset slurm SLURM_CONF
 }
