@@ -11,31 +11,30 @@ cd "$scratch" || exit 1
 count=200 shards=10
 node "$root/tests/library/recipes.mjs" recipes $count || exit 1
 
-now() { date +%s.%N; }
-row() { # WHAT SECONDS [CORES]: overhead is what each core spent beyond the bakes
-  awk -v what="$1" -v seconds="$2" -v cores="${3:-2}" -v bakes="$bakes" -v count=$count 'BEGIN {
-    printf "| %s | %.1f s | %.0f ms |\n", what, seconds, 1000 * (seconds * cores - bakes) / count }'
-}
-timed() { # WHAT CORES COMMAND...
-  local started what=$1 cores=$2
-  shift 2
-  started=$(now)
+baked_seconds() { jq -s 'map(.seconds) | add' "$1/report.jsonl"; } # in the processes of the bakes
+timed() { # WHAT DIR BAKES COMMAND...: the overhead is what two cores spent beyond the bakes; BAKES: yes, or no where none is baked
+  local what=$1 out=$2 bakes=$3 started ended
+  shift 3
+  started=$(date +%s.%N)
   "$@" >>out.log 2>&1 </dev/null || { tail -n 20 out.log >&2; exit 1; }
-  row "$what" "$(awk -v a="$started" -v b="$(now)" 'BEGIN { print b - a }')" "$cores"
+  ended=$(date +%s.%N)
+  [ "$bakes" = no ] && bakes=0 || bakes=$(baked_seconds "$out")
+  awk -v what="$what" -v s="$started" -v e="$ended" -v bakes="$bakes" -v count=$count 'BEGIN {
+    printf "| %s | %.1f s | %.1f s | %.0f ms |\n", what, e - s, bakes / 2, 1000 * (e - s - bakes / 2) / count }'
 }
+by_batch() { "$MORPHBAKE" batch recipes/library.jsonl -o "$1" -j 2 --cache none; }
+by_library() { "$root/pipeline/library" recipes/library.jsonl -o "$1" --cache none "${@:2}"; }
 
-"$MORPHBAKE" batch recipes/library.jsonl -o first -j 2 --cache none >/dev/null 2>&1 || exit 1
-bakes=$(jq -s 'map(.seconds) | add' first/report.jsonl) || exit 1
-echo "| $count recipes, $(awk -v b="$bakes" -v n=$count 'BEGIN { printf "%.2f s", b / n }') each in its process, on two cores | wall | overhead a recipe |"
-echo "|---|---:|---:|"
-timed "\`morphbake batch\`" 2 "$MORPHBAKE" batch recipes/library.jsonl -o alone -j 2 --cache none
-timed "the same again: nothing to do" 2 "$MORPHBAKE" batch recipes/library.jsonl -o alone -j 2 --cache none
-timed "\`pipeline/library --shards $shards\`" 2 "$root/pipeline/library" recipes/library.jsonl -o local --shards $shards --cache none
-timed "the same again" 2 "$root/pipeline/library" recipes/library.jsonl -o local --shards $shards --cache none
+echo "| $count small recipes on two cores | wall | bakes alone | the rest, a recipe |"
+echo "|---|---:|---:|---:|"
+timed '`morphbake batch`' alone yes by_batch alone
+timed "the same again: nothing to do" alone no by_batch alone
+timed "\`pipeline/library --shards $shards\`" local yes by_library local --shards $shards
+timed "the same again" local no by_library local --shards $shards
 start_slurm "$scratch/slurm" 2 1 >&2 || exit 1
-timed "\`--slurm --shards $shards\`, two nodes of a core" 2 "$root/pipeline/library" recipes/library.jsonl -o slurm --slurm --shards $shards --cache none
-timed "the same again" 2 "$root/pipeline/library" recipes/library.jsonl -o slurm --slurm --shards $shards --cache none
-timed "\`--slurm --shards $count\`: a job is a recipe or none" 2 "$root/pipeline/library" recipes/library.jsonl -o single --slurm --shards $count --cache none
+timed "\`--slurm --shards $shards\`, two nodes of a core" slurm yes by_library slurm --slurm --shards $shards
+timed "the same again" slurm no by_library slurm --slurm --shards $shards
+timed "\`--slurm --shards $count\`: a job for about a recipe" single yes by_library single --slurm --shards $count
 stop_slurm
 
 echo
