@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 
 #include "cli/interrupt.h"
@@ -46,7 +47,7 @@ Json to_json(const BatchProgress& progress) {
 /// "40 s", "12 min", "3 h 20 min"
 std::string shown_time(double seconds) {
   if (seconds < 100) return fmt::format("{:.0f} s", seconds);
-  const auto minutes = static_cast<long long>(seconds / 60 + 0.5);
+  const long long minutes = std::llround(seconds / 60);
   return minutes < 100 ? fmt::format("{} min", minutes)
                        : fmt::format("{} h {} min", minutes / 60, minutes % 60);
 }

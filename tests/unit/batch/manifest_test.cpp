@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 
+#include "morphbake/batch/line_reader.h"
 #include "unit/batch/batch_folder.h"
 
 namespace morphbake {
@@ -53,7 +54,9 @@ TEST(Manifest, RefusesOneNameForTwo) {
 }
 
 TEST(Manifest, RefusesAnEndlessLine) {
-  EXPECT_THAT(faults("\"a.json\"\n\"" + std::string(17000000, 'x') + "\"\n\"b.json\""),
+  std::string endless;
+  endless.resize(LineReader::kLongest + 1, 'x');
+  EXPECT_THAT(faults("\"a.json\"\n\"" + endless + "\"\n\"b.json\""),
               AllOf(HasSubstr("list.jsonl:2:"), HasSubstr("[batch.line-too-long]")));
 }
 
