@@ -33,6 +33,10 @@ struct KeptFile {
   fs::file_time_type used;
 };
 
+bool is_being_written(const KeptFile& file) {
+  return file.path.filename().string().starts_with('.');
+}
+
 /// The files of one folder, least recently used first.
 std::vector<KeptFile> kept_files(const fs::path& folder) {
   std::vector<KeptFile> files;
@@ -76,7 +80,7 @@ std::string entry_to_bytes(const CacheEntry& entry) {
 }
 
 std::optional<CacheEntry> entry_from_bytes(std::string_view bytes) {
-  if (bytes.size() <= kHeader || !bytes.starts_with(kMagic)) return {};
+  if (bytes.size() <= kHeader || !bytes.starts_with(kMagic) || bytes[kHeader - 1] != '\n') return {};
   const std::string_view body = bytes.substr(kHeader);
   if (bytes.substr(kMagic.size(), kDigits) != content_hash(body)) return {};
   const std::size_t end = body.find('\n');
@@ -155,8 +159,10 @@ CacheContents StageCache::contents() const {
 void StageCache::clear() const {
   std::error_code ignored;
   for (const fs::path& folder : folders_of(options_.folder)) {
-    for (const KeptFile& file : kept_files(folder)) fs::remove(file.path, ignored);
-    fs::remove(folder, ignored);
+    for (const KeptFile& file : kept_files(folder)) {
+      if (!is_being_written(file)) fs::remove(file.path, ignored);
+    }
+    fs::remove(folder, ignored);  // fails, as it should, when something is in it
   }
 }
 
@@ -166,9 +172,9 @@ void StageCache::make_room(const fs::path& folder) const {
   const auto now = fs::file_time_type::clock::now();
   std::error_code ignored;
   std::erase_if(files, [&](const KeptFile& file) {
-    const bool is_being_written = file.path.filename().string().starts_with('.');
-    const bool is_left_over = is_being_written && now - file.used > kAbandoned;
-    return is_left_over && fs::remove(file.path, ignored);
+    if (!is_being_written(file)) return false;
+    if (now - file.used > kAbandoned) fs::remove(file.path, ignored);
+    return true;  // else its writer still needs it
   });
   std::uintmax_t total = 0;
   for (const KeptFile& file : files) total += file.bytes;
