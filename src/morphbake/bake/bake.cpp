@@ -156,9 +156,8 @@ KeptResults find_results(const Running& bake) {
 /// Runs the stages before the outputs, and says what they did.
 std::unique_ptr<SolvedStages> run_stages(const Running& bake, BakeReport& report) {
   const Stopwatch watch;
-  std::vector<Problem> warnings;
-  auto stages = solve_recipe(bake.recipe, bake.options, bake.cache, bake.keys, bake.clock,
-                             recording(bake.observer, warnings));
+  auto stages =
+      solve_recipe(bake.recipe, bake.options, bake.cache, bake.keys, bake.clock, bake.observer);
   report.vertices = stages->mesh.connectivity.vertex_count;
   report.triangles = static_cast<int>(stages->mesh.connectivity.triangles.rows());
   report.components = stages->timeline->states->displacements->components().count;
@@ -168,7 +167,7 @@ std::unique_ptr<SolvedStages> run_stages(const Running& bake, BakeReport& report
   report.connectivity.triangles = report.triangles;
   report.solve = stages->timeline->report;
   if (bake.cache.is_on()) {
-    bake.cache.keep(bake.keys.solve, entry_of(report), warnings, watch.seconds());
+    bake.cache.keep(bake.keys.solve, entry_of(report), stages->warnings, watch.seconds());
   }
   return stages;
 }

@@ -87,8 +87,9 @@ void shape_sources(ConnectedSources connected, BakeCache& cache, const BakeKeys&
 
 std::unique_ptr<SolvedStages> solve_recipe(const Recipe& recipe, const BakeOptions& options,
                                            BakeCache& cache, const BakeKeys& keys,
-                                           StageClock& clock, const Observer& observer) {
+                                           StageClock& clock, const Observer& caller) {
   auto stages = std::make_unique<SolvedStages>();
+  const Observer& observer = stages->observer = recording(caller, stages->warnings);
   clock.start("sources");
   AlignedSources aligned = load_aligned(recipe, observer);
   stages->recipe = std::move(aligned.recipe);

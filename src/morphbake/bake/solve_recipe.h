@@ -20,6 +20,8 @@ struct SolvedStages {
   std::unique_ptr<SolvedTimeline> timeline;
   SmoothingGroups groups;
   ShapeColours colours;
+  std::vector<Problem> warnings;
+  Observer observer;  ///< which the timeline asks as long as it is there
 
   SolvedRecipe view() const {
     return {recipe, sources.front(), mesh, regions, *timeline, groups, colours};

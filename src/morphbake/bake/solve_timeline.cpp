@@ -118,16 +118,17 @@ std::string hash_of(const Matrix& matrix) {
   return content_hash({begin, static_cast<std::size_t>(matrix.size()) * sizeof(double)});
 }
 
-SolveReport report_of(const SolvedTimeline& solved, std::vector<SolveRecord> records) {
+SolveReport report_of(const SolvedTimeline& solved, const SurfaceSolver& solver,
+                      std::vector<SolveRecord> records) {
   const DisplacementSystem& system = *solved.states->displacements;
   SolveReport report;
   report.representation = name_of(solved.representation.representation);
   report.representation_reason = solved.representation.reason;
-  report.solver = name_of(solved.solver->choice().solver);
-  report.reason = solved.solver->choice().reason;
+  report.solver = name_of(solver.choice().solver);
+  report.reason = solver.choice().reason;
   report.unknowns = static_cast<int>(system.equations().matrix.rows());
   report.held = system.held_count();
-  report.factor_bytes = solved.solver->factor_bytes();
+  report.factor_bytes = solver.factor_bytes();
   report.solves = std::move(records);
   if (system.diagonal() > 0) {
     for (SolveRecord& record : report.solves) record.convergence.error /= system.diagonal();
@@ -146,12 +147,11 @@ std::string hash_of(const MorphableMesh& mesh, const SeparableTimeline& separabl
 }
 
 KeptShapes solved_shapes(const MorphableMesh& mesh, const SolveOptions& options,
-                         const Observer& observer, SolvedTimeline& solved) {
+                         const Observer& observer, const SolvedTimeline& solved) {
   const StateSystem& states = *solved.states;
-  solved.solver =
-      std::make_unique<SurfaceSolver>(*states.displacements, options, observer, states.factor);
-  SolvedShapes shapes = solve_fields(*solved.solver, mesh, *solved.separable, observer);
-  SolveReport report = report_of(solved, std::move(shapes.records));
+  const SurfaceSolver solver(*states.displacements, options, observer, states.factor);
+  SolvedShapes shapes = solve_fields(solver, mesh, *solved.separable, observer);
+  SolveReport report = report_of(solved, solver, std::move(shapes.records));
   return {std::move(shapes), std::move(report)};
 }
 
@@ -189,7 +189,7 @@ void solve_every_frame(const Recipe& recipe, const RegionFields& regions, Eigen:
   SolvedFrames frames =
       solved_frames(*solved.solver, states.rest, frame_times(recipe.timeline), goals_at, observer);
   solved.frames = std::move(frames.source);
-  solved.report = report_of(solved, std::move(frames.records));
+  solved.report = report_of(solved, *solved.solver, std::move(frames.records));
 }
 
 }  // namespace

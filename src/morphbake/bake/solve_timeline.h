@@ -16,7 +16,7 @@ struct SolvedTimeline {
   RepresentationChoice representation;
   std::optional<SeparableTimeline> separable;  ///< none when regions move or flood, or too many
   std::unique_ptr<StateSystem> states;
-  std::unique_ptr<SurfaceSolver> solver;  ///< none where shapes came from the cache
+  std::unique_ptr<SurfaceSolver> solver;  ///< of frames; none where shapes make up the timeline
   SolvedShapes shapes;                    ///< empty when frames were solved
   FrameSource frames;
   SolveReport report;

@@ -80,7 +80,8 @@ std::string entry_to_bytes(const CacheEntry& entry) {
 }
 
 std::optional<CacheEntry> entry_from_bytes(std::string_view bytes) {
-  if (bytes.size() <= kHeader || !bytes.starts_with(kMagic) || bytes[kHeader - 1] != '\n') return {};
+  if (bytes.size() <= kHeader || !bytes.starts_with(kMagic) || bytes[kHeader - 1] != '\n')
+    return {};
   const std::string_view body = bytes.substr(kHeader);
   if (bytes.substr(kMagic.size(), kDigits) != content_hash(body)) return {};
   const std::size_t end = body.find('\n');
