@@ -32,7 +32,8 @@ std::string manual(const CLI::App& program) {
       fmt::format(".TH MORPHBAKE 1 \"\" \"morphbake {}\" \"User Commands\"\n", version());
   page += ".SH NAME\nmorphbake \\- bakes shape morphs into glTF\n.SH SYNOPSIS\n";
   page += ".B morphbake\n.I COMMAND\n[\\fIARGUMENTS\\fR]\n.SH DESCRIPTION\n";
-  page += verbatim(program.help());
+  page += verbatim(
+      program.get_formatter()->make_help(&program, "morphbake", CLI::AppFormatMode::Normal));
   const auto all = std::function<bool(const CLI::App*)>();
   for (const CLI::App* command : program.get_subcommands(all)) {
     page += ".SH " + command->get_name() + "\n";

@@ -93,7 +93,9 @@ TerminalSettings settings_for_this_process(LogFormat log, bool quiet) {
 
 void Terminal::result(std::string_view text) {
   clear_bar();
-  fmt::print(out_, "{}\n", text);
+  // What cannot be written is told by finish().
+  std::fwrite(text.data(), 1, text.size(), out_);
+  std::fputc('\n', out_);
 }
 
 void Terminal::problem(const Problem& problem) {

@@ -21,11 +21,11 @@ void read_as_every_stage(const CacheEntry& entry) {
   files_of(entry);
   BakeReport report;
   fill_in(entry, report);
-  RegionOfInterest region;
-  region.shape = FloodRegion{};
-  region_of(entry, region, kVertices);
-  region.shape = BallRegion{};
-  region_of(entry, region, kVertices);
+  Recipe recipe;
+  recipe.regions.resize(2);
+  recipe.regions[0].shape = FloodRegion{};
+  recipe.regions[1].shape = BallRegion{};
+  regions_of(entry, recipe, kVertices);
 }
 
 void read_entry(std::string_view bytes) {

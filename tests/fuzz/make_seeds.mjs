@@ -61,7 +61,7 @@ write('landmarks', 'ways.json', JSON.stringify({
 const solve = { representation: 'laplacian', representation_reason: '', solver: 'direct', reason: '', unknowns: 2, held: 0, factor_bytes: 0, solves: [] };
 const entries = {
   shapes: [{ names: ['a'], report: solve }, [48, 48]],
-  flood: [{ softness: 0.5 }, [16]],
+  regions: [{ softness: [0.5, 0] }, [16, 16]],
   files: [{ endings: ['.gif'] }, [1]],
   output: [{ kind: 'tracks', targets: ['a'], weight_keys: 2, max_error: 0, worst_time: 0, worst_vertex: 0, node: 0, normals: { maximum: 0, percentile_99: 0, time: 0, vertex: 0 } }, [4]],
   report: [{ vertices: 2, triangles: 1, components: 1, frames: 2, solve, connectivity: { mode: 'remesh', vertices: 2, triangles: 1, repairs: [{ source: 'a', repairs: { degenerate: 0, duplicate: 0, turned: 0 } }], steps: [{ name: 'sphere', seconds: 1 }], texture: null, quality: null } }, []],

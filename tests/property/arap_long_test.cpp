@@ -160,7 +160,8 @@ TEST(Rotation, KeepsLengthsAndAreasOfTwoMenAsWellAsArap) {
   const StageCache none;
   BakeCache cache(none, loaded.recipe, nobody);
   const ConnectedSources connected =
-      connect_sources(loaded.recipe, std::move(loaded.sources), Measuring::Off, cache, {}, nobody);
+      connect_sources(loaded.recipe, std::move(loaded.sources), Measuring::Off,
+                      {cache, no_keys(loaded.recipe), nobody});
   expect_as_good_as_arap(share_connectivity(connected.sources), {0.25, 0.5, 0.75});
 }
 

@@ -157,7 +157,7 @@ KeptResults find_results(const Running& bake) {
 std::unique_ptr<SolvedStages> run_stages(const Running& bake, BakeReport& report) {
   const Stopwatch watch;
   auto stages =
-      solve_recipe(bake.recipe, bake.options, bake.cache, bake.keys, bake.clock, bake.observer);
+      solve_recipe(bake.recipe, bake.options, {bake.cache, bake.keys, bake.observer}, bake.clock);
   report.vertices = stages->mesh.connectivity.vertex_count;
   report.triangles = static_cast<int>(stages->mesh.connectivity.triangles.rows());
   report.components = stages->timeline->states->displacements->components().count;
@@ -167,7 +167,12 @@ std::unique_ptr<SolvedStages> run_stages(const Running& bake, BakeReport& report
   report.connectivity.triangles = report.triangles;
   report.solve = stages->timeline->report;
   if (bake.cache.is_on()) {
-    bake.cache.keep(bake.keys.solve, entry_of(report), stages->warnings, watch.seconds());
+    double others = 0;  // stages of their own
+    for (const StageKey* stage :
+         {&bake.keys.connectivity, &bake.keys.regions, &bake.keys.derived}) {
+      others += bake.cache.seconds_of(*stage).value_or(0);
+    }
+    bake.cache.keep(bake.keys.solve, entry_of(report), stages->warnings, watch.seconds() - others);
   }
   return stages;
 }

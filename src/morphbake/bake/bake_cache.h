@@ -63,6 +63,13 @@ class BakeCache {
   std::map<std::string, double> seconds_;  // by key
 };
 
+/// Where stages look for what is kept, under which keys, and who listens to them.
+struct StageContext {
+  BakeCache& cache;
+  const BakeKeys& keys;
+  const Observer& observer;
+};
+
 /// Seconds since it was made.
 class Stopwatch {
  public:
@@ -76,12 +83,11 @@ class Stopwatch {
 
 /// The stage's result from the cache, or made and kept.
 ///
-/// @param make      Result(const Observer&)
-/// @param to_entry  CacheEntry(const Result&)
+/// @param make      Result(const Observer&), of which entry_of(result) makes an entry
 /// @param of_entry  std::optional<Result>(CacheEntry); none where it does not fit
-template <typename Make, typename ToEntry, typename OfEntry>
+template <typename Make, typename OfEntry>
 auto taken_or_made(BakeCache& cache, const StageKey& stage, const Observer& observer,
-                   const Make& make, const ToEntry& to_entry, const OfEntry& of_entry) {
+                   const Make& make, const OfEntry& of_entry) {
   if (std::optional<KeptStage> kept = cache.find(stage)) {
     if (auto result = of_entry(std::move(kept->entry))) {
       cache.take(stage, kept->warnings, observer);
@@ -91,7 +97,7 @@ auto taken_or_made(BakeCache& cache, const StageKey& stage, const Observer& obse
   const Stopwatch watch;
   std::vector<Problem> warnings;
   auto result = make(recording(observer, warnings));
-  if (cache.is_on()) cache.keep(stage, to_entry(result), warnings, watch.seconds());
+  if (cache.is_on()) cache.keep(stage, entry_of(result), warnings, watch.seconds());
   return result;
 }
 

@@ -106,8 +106,7 @@ KeptConnectivity new_connectivity(const Recipe& recipe, const std::vector<Source
 }  // namespace
 
 ConnectedSources connect_sources(const Recipe& recipe, std::vector<SourceMesh> sources,
-                                 Measuring measuring, BakeCache& cache, const StageKey& key,
-                                 const Observer& observer) {
+                                 Measuring measuring, const StageContext& context) {
   ConnectedSources connected;
   connected.report.mode = recipe.connectivity.mode;
   if (recipe.connectivity.mode == ConnectivityMode::Shared) {
@@ -115,11 +114,10 @@ ConnectedSources connect_sources(const Recipe& recipe, std::vector<SourceMesh> s
     return connected;
   }
   KeptConnectivity made = taken_or_made(
-      cache, key, observer,
+      context.cache, context.keys.connectivity, context.observer,
       [&](const Observer& listening) {
         return new_connectivity(recipe, sources, measuring, listening);
       },
-      [](const KeptConnectivity& kept) { return entry_of(kept); },
       [&](CacheEntry entry) { return connectivity_of(std::move(entry), sources.size()); });
   for (std::size_t s = 0; s < sources.size(); ++s) {
     connected.sources.push_back(read_source(

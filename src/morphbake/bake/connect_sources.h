@@ -53,10 +53,8 @@ struct ConnectedSources {
 /// New sources are read from the very bytes that `morphbake remesh` writes, so a bake gives the
 /// same from those files. What the cache has is not made again.
 ///
-/// @param key  of the stage
 /// @throws BakeError as remesh_sources
 ConnectedSources connect_sources(const Recipe& recipe, std::vector<SourceMesh> sources,
-                                 Measuring measuring, BakeCache& cache, const StageKey& key,
-                                 const Observer& observer);
+                                 Measuring measuring, const StageContext& context);
 
 }  // namespace morphbake

@@ -58,48 +58,74 @@ bool is_worth_keeping(const RegionOfInterest& region) {
          std::holds_alternative<FloodRegion>(region.shape);
 }
 
-CacheEntry entry_of(const RegionField& field) {
-  if (const auto* flood = std::get_if<FloodField>(&field.form)) {
-    return {Facts({{"softness", flood->softness}}).dump(), {bytes_of(flood->order)}};
+KeptRegions kept_regions(const Recipe& recipe, const RegionFields& fields) {
+  KeptRegions kept;
+  for (std::size_t r = 0; r < fields.size(); ++r) {
+    const bool keeps = is_worth_keeping(recipe.regions[r]);
+    kept.fields.push_back(keeps ? std::optional(fields[r]) : std::nullopt);
   }
-  return {"{}", {bytes_of(std::get<Eigen::VectorXd>(field.form))}};
+  return kept;
 }
 
-std::optional<RegionField> region_of(const CacheEntry& entry, const RegionOfInterest& region,
-                                     Eigen::Index vertex_count) {
-  return reading<RegionField>(entry, [&](const Facts& facts) -> std::optional<RegionField> {
-    RegionField field;
-    field.falloff = region.falloff;
-    Eigen::VectorXd values;
-    if (entry.blobs.size() != 1 || !read_bytes(entry.blobs[0], vertex_count, values)) return {};
-    field.floods = std::holds_alternative<FloodRegion>(region.shape);
-    if (field.floods) {
-      field.form = FloodField{std::move(values), facts.at("softness").get<double>()};
-    } else {
-      field.form = std::move(values);
-    }
-    return field;
-  });
-}
-
-CacheEntry entry_of(const std::vector<Positions>& geometries) {
+CacheEntry entry_of(const KeptRegions& regions) {
+  Facts softness = Facts::array();
   CacheEntry entry;
-  for (const Positions& positions : geometries) entry.blobs.push_back(bytes_of(positions));
+  for (const std::optional<RegionField>& field : regions.fields) {
+    if (!field) continue;
+    const auto* flood = std::get_if<FloodField>(&field->form);
+    softness.push_back(flood == nullptr ? 0 : flood->softness);
+    entry.blobs.push_back(
+        bytes_of(flood == nullptr ? std::get<Eigen::VectorXd>(field->form) : flood->order));
+  }
+  entry.facts = Facts({{"softness", softness}}).dump();
   return entry;
 }
 
-std::optional<std::vector<Positions>> geometries_of(const CacheEntry& entry, std::size_t count,
-                                                    Eigen::Index vertex_count) {
+std::optional<KeptRegions> regions_of(const CacheEntry& entry, const Recipe& recipe,
+                                      Eigen::Index vertex_count) {
+  return reading<KeptRegions>(entry, [&](const Facts& facts) -> std::optional<KeptRegions> {
+    KeptRegions kept;
+    std::size_t next = 0;
+    for (const RegionOfInterest& region : recipe.regions) {
+      std::optional<RegionField>& field = kept.fields.emplace_back();
+      if (!is_worth_keeping(region)) continue;
+      Eigen::VectorXd values;
+      if (next >= entry.blobs.size() || !read_bytes(entry.blobs[next], vertex_count, values)) {
+        return {};
+      }
+      field.emplace();
+      field->falloff = region.falloff;
+      field->floods = std::holds_alternative<FloodRegion>(region.shape);
+      const auto softness = facts.at("softness").at(next++).get<double>();
+      if (field->floods) {
+        field->form = FloodField{std::move(values), softness};
+      } else {
+        field->form = std::move(values);
+      }
+    }
+    if (next != entry.blobs.size()) return {};
+    return kept;
+  });
+}
+
+CacheEntry entry_of(const KeptGeometries& kept) {
+  CacheEntry entry;
+  for (const Positions& positions : kept.geometries) entry.blobs.push_back(bytes_of(positions));
+  return entry;
+}
+
+std::optional<KeptGeometries> geometries_of(const CacheEntry& entry, std::size_t count,
+                                            Eigen::Index vertex_count) {
   if (entry.blobs.size() != count) return {};
-  std::vector<Positions> geometries(count);
+  KeptGeometries kept{std::vector<Positions>(count)};
   for (std::size_t i = 0; i < count; ++i) {
-    if (!read_bytes(entry.blobs[i], vertex_count, geometries[i])) return {};
+    if (!read_bytes(entry.blobs[i], vertex_count, kept.geometries[i])) return {};
   }
-  return geometries;
+  return kept;
 }
 
 CacheEntry entry_of(const KeptShapes& kept) {
-  CacheEntry entry = entry_of(kept.shapes.displacements);
+  CacheEntry entry = entry_of(KeptGeometries{kept.shapes.displacements});
   entry.blobs.insert(entry.blobs.begin(), bytes_of(kept.shapes.base));
   entry.facts = Facts({{"names", kept.shapes.names}, {"report", kept.report}}).dump();
   return entry;
@@ -112,10 +138,11 @@ std::optional<KeptShapes> shapes_of(const CacheEntry& entry, std::size_t fields,
     KeptShapes kept;
     facts.at("names").get_to(kept.shapes.names);
     facts.at("report").get_to(kept.report);
-    if (!positions || kept.shapes.names.size() + 1 != fields) return {};
-    kept.shapes.base = std::move(positions->front());
-    positions->erase(positions->begin());
-    kept.shapes.displacements = std::move(*positions);
+    if (!positions || fields == 0 || kept.shapes.names.size() + 1 != fields) return {};
+    std::vector<Positions>& shapes = positions->geometries;
+    kept.shapes.base = std::move(shapes.front());
+    shapes.erase(shapes.begin());
+    kept.shapes.displacements = std::move(shapes);
     return kept;
   });
 }

@@ -27,16 +27,25 @@ std::optional<KeptConnectivity> connectivity_of(CacheEntry entry, std::size_t so
 /// Whether a region takes longer to make than to read: what needs distances on the surface.
 bool is_worth_keeping(const RegionOfInterest& region);
 
-/// @param field  of a region that is worth keeping
-CacheEntry entry_of(const RegionField& field);
+/// The fields of a recipe's regions that are worth keeping; none of the others.
+struct KeptRegions {
+  std::vector<std::optional<RegionField>> fields;  ///< one a region
+};
 
-/// @param region  whose field it is
-std::optional<RegionField> region_of(const CacheEntry& entry, const RegionOfInterest& region,
-                                     Eigen::Index vertex_count);
+KeptRegions kept_regions(const Recipe& recipe, const RegionFields& fields);
 
-CacheEntry entry_of(const std::vector<Positions>& geometries);
-std::optional<std::vector<Positions>> geometries_of(const CacheEntry& entry, std::size_t count,
-                                                    Eigen::Index vertex_count);
+CacheEntry entry_of(const KeptRegions& regions);
+std::optional<KeptRegions> regions_of(const CacheEntry& entry, const Recipe& recipe,
+                                      Eigen::Index vertex_count);
+
+/// Shapes of one connectivity.
+struct KeptGeometries {
+  std::vector<Positions> geometries;
+};
+
+CacheEntry entry_of(const KeptGeometries& kept);
+std::optional<KeptGeometries> geometries_of(const CacheEntry& entry, std::size_t count,
+                                            Eigen::Index vertex_count);
 
 /// The shapes of a timeline, and how they were solved.
 struct KeptShapes {

@@ -60,9 +60,7 @@ std::vector<KeptStageKey> kept_stages(const Recipe& recipe, const BakeKeys& keys
   std::vector<KeptStageKey> stages;
   const auto add = [&](const StageKey& stage, Role role) { stages.push_back({stage, role}); };
   if (recipe.connectivity.mode != ConnectivityMode::Shared) add(keys.connectivity, Role::Before);
-  for (std::size_t r = 0; r < recipe.regions.size(); ++r) {
-    if (is_worth_keeping(recipe.regions[r])) add(keys.regions[r], Role::Before);
-  }
+  if (std::ranges::any_of(recipe.regions, is_worth_keeping)) add(keys.regions, Role::Before);
   if (!recipe.derived.empty()) add(keys.derived, Role::Before);
   add(keys.solve, Role::Result);
   for (const StageKey& output : keys.outputs) add(output, Role::Result);
@@ -72,34 +70,43 @@ std::vector<KeptStageKey> kept_stages(const Recipe& recipe, const BakeKeys& keys
   return stages;
 }
 
-/// The first thing in which two descriptions differ.
-std::string difference(const Json& before, const Json& now) {
-  const Json changes = Json::diff(before, now);
-  if (changes.empty()) return "its entry is gone: it was removed, or made room for others";
-  const Json& change = changes.front();
+/// One change of a description, in words.
+std::string words_of(const Json& change, const Json& before, const Json& now) {
   const auto pointer = change.at("path").get<std::string>();
   if (pointer == "/program") return "another build of morphbake made it";
   if (pointer == "/connectivity" && now["connectivity"].is_string()) {
     return "the sources or the connectivity changed";
   }
   if (pointer == "/solve" || pointer == "/of") return "what it is made from changed";
-  if (pointer.starts_with("/sources/") && pointer.find("/file") != std::string::npos) {
-    return fmt::format("a file of {} has other bytes", pointer.substr(0, pointer.find("/file")));
+  const std::size_t file = pointer.find("/file");
+  if (pointer.starts_with("/sources/") && file != std::string::npos) {
+    return fmt::format("a file of {} has other bytes", pointer.substr(0, file));
   }
-  const std::string shown_pointer = pointer.starts_with("/recipe/") ? pointer.substr(7) : pointer;
-  if (change["op"] == "add") {
-    return fmt::format("{} is new: {}", shown_pointer, shown(change["value"]));
+  const std::string place = pointer.starts_with("/recipe/") ? pointer.substr(7) : pointer;
+  if (change["op"] == "add") return fmt::format("{} is new: {}", place, shown(change["value"]));
+  if (change["op"] == "remove") return fmt::format("{} is there no more", place);
+  return fmt::format("{} was {} and is {}", place, shown(before.at(Json::json_pointer(pointer))),
+                     shown(change["value"]));
+}
+
+/// In what two descriptions differ, as far as one wants to read it.
+std::string differences(const Json& before, const Json& now) {
+  constexpr std::size_t kTold = 3;
+  const Json changes = Json::diff(before, now);
+  if (changes.empty()) return "its entry is gone: it was removed, or made room for others";
+  std::string words;
+  for (std::size_t i = 0; i < changes.size() && i < kTold; ++i) {
+    words += (i > 0 ? "; " : "") + words_of(changes[i], before, now);
   }
-  if (change["op"] == "remove") return fmt::format("{} is there no more", shown_pointer);
-  return fmt::format("{} was {} and is {}", shown_pointer,
-                     shown(before.at(Json::json_pointer(pointer))), shown(change["value"]));
+  return changes.size() > kTold ? words + "; and more" : words;
 }
 
 std::string reason_for(const StageKey& stage, const LastStages& last) {
+  if (last.empty()) return "the cache knows no bake of this recipe";
   const auto before = last.find(stage.name);
-  if (before == last.end()) return "it was never made for this recipe";
+  if (before == last.end()) return "the last bake of this recipe did not have it";
   const Json now = parse_json(stage.description, stage.name, {stage.description.size()});
-  return difference(before->second.description, now);
+  return "since the last bake " + differences(before->second.description, now);
 }
 
 }  // namespace

@@ -34,8 +34,7 @@ struct SolvedStages {
 /// @return  refers to itself, so it stays where it is
 /// @throws  BakeError, Cancelled
 std::unique_ptr<SolvedStages> solve_recipe(const Recipe& recipe, const BakeOptions& options,
-                                           BakeCache& cache, const BakeKeys& keys,
-                                           StageClock& clock, const Observer& observer);
+                                           const StageContext& context, StageClock& clock);
 
 /// Finds what solve_recipe would refuse before it solves.
 void check_recipe(const Recipe& recipe, const BakeOptions& options, const Observer& observer);

@@ -158,13 +158,12 @@ KeptShapes solved_shapes(const MorphableMesh& mesh, const SolveOptions& options,
 /// Solves for the shapes of which the timeline is made, or takes them from the cache: when frames
 /// come is nothing to them.
 void solve_shapes(const Recipe& recipe, const MorphableMesh& mesh, const SolveOptions& options,
-                  BakeCache& cache, StageKey key, const Observer& observer,
-                  SolvedTimeline& solved) {
-  if (cache.is_on()) key.key = content_hash(key.key + hash_of(mesh, *solved.separable));
+                  const StageContext& context, SolvedTimeline& solved) {
+  StageKey key = context.keys.shapes;
+  if (context.cache.is_on()) key.key = content_hash(key.key + hash_of(mesh, *solved.separable));
   KeptShapes kept = taken_or_made(
-      cache, key, observer,
+      context.cache, key, context.observer,
       [&](const Observer& listening) { return solved_shapes(mesh, options, listening, solved); },
-      [](const KeptShapes& shapes) { return entry_of(shapes); },
       [&](const CacheEntry& entry) {
         return shapes_of(entry, solved.separable->fields.size(), mesh.connectivity.vertex_count);
       });
@@ -173,10 +172,11 @@ void solve_shapes(const Recipe& recipe, const MorphableMesh& mesh, const SolveOp
   solved.frames = combined_frames(solved.shapes, *solved.separable, recipe.timeline);
 }
 
-void solve_every_frame(const Recipe& recipe, const RegionFields& regions, Eigen::Index count,
+void solve_every_frame(const Recipe& recipe, const RegionFields& regions,
                        const SolveOptions& options, const Observer& observer,
                        SolvedTimeline& solved) {
   const StateSystem& states = *solved.states;
+  const Eigen::Index count = states.rest.rows();
   solved.solver =
       std::make_unique<SurfaceSolver>(*states.displacements, options, observer, states.factor);
   const auto goals_at = [&](std::span<const double> times) {
@@ -208,8 +208,9 @@ void check_timeline(const Recipe& recipe, const MorphableMesh& mesh, const Regio
 
 std::unique_ptr<SolvedTimeline> solve_timeline(const Recipe& recipe, const MorphableMesh& mesh,
                                                const RegionFields& regions,
-                                               const SolveOptions& options, BakeCache& cache,
-                                               const StageKey& key, const Observer& observer) {
+                                               const SolveOptions& options,
+                                               const StageContext& context) {
+  const Observer& observer = context.observer;
   const Eigen::Index count = mesh.connectivity.vertex_count;
   auto solved = std::make_unique<SolvedTimeline>();
   solved->representation = choose_representation(recipe, mesh, observer);
@@ -223,9 +224,9 @@ std::unique_ptr<SolvedTimeline> solve_timeline(const Recipe& recipe, const Morph
                   timeline_system(recipe, mesh, regions, changes, options), solving, observer));
   solved->separable = std::move(changes.separable);
   if (solving.every_frame) {
-    solve_every_frame(recipe, regions, count, solving, observer, *solved);
+    solve_every_frame(recipe, regions, solving, observer, *solved);
   } else {
-    solve_shapes(recipe, mesh, solving, cache, key, observer, *solved);
+    solve_shapes(recipe, mesh, solving, context, *solved);
   }
   warn_of_spike(recipe, mesh, *solved, changes, observer);
   return solved;

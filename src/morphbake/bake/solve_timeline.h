@@ -25,13 +25,12 @@ struct SolvedTimeline {
 /// Chooses what is held and where the rest stands, factorises, solves. Shapes that the cache has
 /// are not solved for.
 ///
-/// @param key  of the shapes, but for the mesh and the timeline's fields
 /// @throws BakeError "recipe.held-region-changes", "recipe.moving-region", "recipe.needs-frames",
 ///         "options.cannot-hold", "solve.no-convergence"
 std::unique_ptr<SolvedTimeline> solve_timeline(const Recipe& recipe, const MorphableMesh& mesh,
                                                const RegionFields& regions,
-                                               const SolveOptions& options, BakeCache& cache,
-                                               const StageKey& key, const Observer& observer);
+                                               const SolveOptions& options,
+                                               const StageContext& context);
 
 /// Finds what solve_timeline would refuse before it solves.
 ///

@@ -89,16 +89,11 @@ StageKey describe_connectivity(const Described& described) {
                                  {"units", or_null(described.document, "units")}});
 }
 
-std::vector<StageKey> describe_regions(const Described& described, const StageKey& connectivity) {
-  std::map<std::string, Json> written = entries_of(described.document, "regions");
-  std::vector<StageKey> keys;
-  for (const RegionOfInterest& region : described.recipe.regions) {
-    keys.push_back(key_of("region " + region.name, {{"stage", "region"},
-                                                    {"connectivity", connectivity.key},
-                                                    {"units", or_null(described.document, "units")},
-                                                    {"region", std::move(written[region.name])}}));
-  }
-  return keys;
+StageKey describe_regions(const Described& described, const StageKey& connectivity) {
+  return key_of("regions", {{"stage", "regions"},
+                            {"connectivity", connectivity.key},
+                            {"units", or_null(described.document, "units")},
+                            {"regions", or_null(described.document, "regions")}});
 }
 
 StageKey describe_derived(const Described& described, const StageKey& connectivity) {
@@ -203,7 +198,6 @@ StageKey describe_maps(const Described& described, const StageKey& solve,
 
 BakeKeys no_keys(const Recipe& recipe) {
   BakeKeys keys;
-  keys.regions.resize(recipe.regions.size());
   keys.outputs.resize(recipe.outputs.size());
   keys.previews.resize(recipe.outputs.size());
   return keys;

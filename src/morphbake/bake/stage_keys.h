@@ -19,7 +19,7 @@ struct InputFiles {
 
 /// What decides the result of a stage. Descriptions of stages contain keys of those before.
 struct StageKey {
-  std::string name;         ///< "connectivity", "region nose", "output a.glb", ...
+  std::string name;         ///< "connectivity", "regions", "output a.glb", ...
   std::string description;  ///< JSON text: options, contents of files, the program
   std::string key;          ///< hash of the description, 32 hexadecimal digits
 };
@@ -27,9 +27,9 @@ struct StageKey {
 /// The keys of all that a bake keeps.
 struct BakeKeys {
   StageKey connectivity;
-  std::vector<StageKey> regions;  ///< one a region of the recipe
-  StageKey derived;               ///< sources that are made from others
-  StageKey shapes;                ///< of the timeline, but for the numbers that they come from
+  StageKey regions;
+  StageKey derived;  ///< sources that are made from others
+  StageKey shapes;   ///< of the timeline, but for the numbers that they come from
   StageKey solve;
   std::vector<StageKey> outputs;
   std::vector<StageKey> previews;  ///< one an output; of recipes with previews

@@ -88,8 +88,9 @@ class OutputFolder {
   OutputFolder& operator=(const OutputFolder&) = delete;
 
   ~OutputFolder() {
-    std::error_code ignored;
-    fs::remove(folder_, ignored);  // fails, as it should, when something is in it
+    std::error_code error;
+    if (!fs::is_directory(folder_, error)) return;  // a file of that name is somebody's
+    fs::remove(folder_, error);                     // fails, as it should, when something is in it
   }
 
  private:

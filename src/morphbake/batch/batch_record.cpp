@@ -125,7 +125,7 @@ std::string record_to_line(const BatchRecord& record) {
   if (record.summary) json["bake"] = to_json(*record.summary);
   json["problems"] = list_of(record.problems);
   if (!record.log.empty()) json["log"] = record.log;
-  json["morphbake"] = version();
+  json["morphbake"] = version_with_commit();
   json["request"] = record.request;
   if (!record.key.empty()) json["key"] = record.key;
   if (!record.connectivity.empty()) json["connectivity"] = record.connectivity;

@@ -21,6 +21,7 @@
 #include "morphbake/files/file_lock.h"
 #include "morphbake/files/files.h"
 #include "morphbake/json/json.h"
+#include "morphbake/linear/cholesky_factor.h"
 
 namespace morphbake {
 namespace {
@@ -227,6 +228,10 @@ void BatchRun::settle(const ProcessOutcome& outcome) {
   if (outcome.end == ProcessOutcome::End::Finished) result = result_from_text(outcome.result);
   const bool was_stopped = result && result->kind == JobResult::Kind::Cancelled;
   if (was_stopped && !outcome.was_asked && is_cancelled()) return;
+  if (!result && is_cancelled()) {  // what did not stop by itself was killed
+    clean_up(folder_ / running.job.entry.name);
+    return;
+  }
   if (!result || was_stopped) {
     result = JobResult{JobResult::Kind::Failed, begun_record(running.job.entry, folder_, options_)};
     result->record.problems = {crash_of(outcome, options_)};
@@ -283,6 +288,8 @@ BatchResult BatchRun::finish(bool is_alone) const {
 }
 
 BatchResult BatchRun::run() {
+  if (options_.memory > 0)
+    reserve_blas_memory();  // before the limit, below which it would wait for ever
   if (const FileLock alone(folder_, FileLock::Kind::Alone, false); alone.is_held()) {
     remove_temporaries(folder_);  // of batches that were killed
   }

@@ -105,6 +105,11 @@ std::vector<int> candidates(const GltfDocument& document, const MeshChoice& choi
     const int node =
         index_of_choice(document, choice.node, names_of(model.nodes), "node", "/nodes");
     if (!has_mesh(document, node)) {
+      // Where integers have a scale, the mesh hangs on a node of its own below the one that has the
+      // name.
+      const std::vector<int> below =
+          with_mesh(document, model.nodes[static_cast<std::size_t>(node)].children);
+      if (below.size() == 1) return below;
       fail_at(document, fmt::format("/nodes/{}", node), "gltf.no-mesh",
               fmt::format("node {} has no mesh", shown_node(document, node)),
               fmt::format("nodes with a mesh: {}", shown_nodes(document, all)));

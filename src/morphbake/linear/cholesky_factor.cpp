@@ -18,6 +18,9 @@
 
 // From OpenBLAS, whose headers Debian keeps in a folder of the alternative that is chosen.
 extern "C" void openblas_set_num_threads(int count);
+extern "C" void dsyrk_(const char* triangle, const char* transposed, const int* n, const int* k,
+                       const double* alpha, const double* a, const int* lda, const double* beta,
+                       double* c, const int* ldc);
 
 namespace morphbake {
 namespace {
@@ -190,6 +193,15 @@ Ordering cheaper_ordering(Eigen::Index rows, double solves) {
   constexpr double kDissected = 3e7;  // rows that are solved for
   return static_cast<double>(rows) * solves < kDissected ? Ordering::MinimumDegree
                                                          : Ordering::NestedDissection;
+}
+
+void reserve_blas_memory() {
+  openblas_set_num_threads(1);
+  constexpr int kSize = 64;
+  const std::vector<double> a(std::size_t{kSize} * kSize, 1);
+  std::vector<double> c(a.size(), 0);
+  const double one = 1, zero = 0;
+  dsyrk_("L", "N", &kSize, &kSize, &one, a.data(), &kSize, &zero, c.data(), &kSize);
 }
 
 CholeskyFactor::CholeskyFactor(const SymmetricSystem& system, Precision precision,

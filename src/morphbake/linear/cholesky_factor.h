@@ -23,6 +23,10 @@ enum class Ordering { MinimumDegree, NestedDissection };
 /// @param solves  of three columns each
 Ordering cheaper_ordering(Eigen::Index rows, double solves);
 
+/// Lets OpenBLAS take the buffer that it needs once a process: where the system gives none, it asks
+/// again and again without end. A forked process has it, too.
+void reserve_blas_memory();
+
 /// A Cholesky factor (made by CHOLMOD), made once and used for every right-hand side.
 ///
 /// The first unknown of each singular block is set to 0 and its equation left out. That is exact
