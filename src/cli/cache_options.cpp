@@ -39,7 +39,7 @@ void add_cache_options(CLI::App& parser, CacheArguments& arguments) {
   parser
       .add_option("--cache-limit", arguments.gigabytes,
                   "GB of it: what was not used for longest goes first")
-      ->check(CLI::Range(0.0, kMostGigabytes))
+      ->check(number_in(0, kMostGigabytes))
       ->envname("MORPHBAKE_CACHE_LIMIT")
       ->capture_default_str();
 }

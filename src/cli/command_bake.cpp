@@ -27,14 +27,6 @@ struct Arguments {
 
 constexpr double kMostGigabytes = 1e6;  // as the schema of the options says
 
-/// Why a text is no size, or "".
-std::string not_a_size(const std::string& text) {
-  double gigabytes = 0;
-  const bool is_size =
-      CLI::detail::lexical_cast(text, gigabytes) && gigabytes >= 0 && gigabytes <= kMostGigabytes;
-  return is_size ? "" : fmt::format("'{}' is no number of GB from 0 to {}", text, kMostGigabytes);
-}
-
 std::string shown_bytes(std::size_t bytes) {
   if (bytes < 1000) return fmt::format("{} B", bytes);
   const double thousands = static_cast<double>(bytes) / 1000;
@@ -161,7 +153,7 @@ Command add_bake(CLI::App& program) {
   parser
       ->add_option("--memory-limit", arguments->memory_limit,
                    "GB: morphs whose factor would take more are solved without; slower")
-      ->check(not_a_size);
+      ->check(number_in(0, kMostGigabytes));
   add_cache_options(*parser, arguments->cache);
   parser->footer(
       "\nExample: morphbake bake recipe.json --output-dir out --set /basis/easing_tolerance=1e-7");

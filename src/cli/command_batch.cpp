@@ -123,12 +123,12 @@ void add_limits(CLI::App& parser, BatchOptions& options) {
       ->check(CLI::Range(0, 1024))
       ->capture_default_str();
   parser.add_option("--timeout", options.timeout, "Seconds that a recipe may take; 0: any number")
-      ->check(CLI::Range(0.0, 1e9))
+      ->check(number_in(0, 1e9))
       ->capture_default_str();
   parser
       .add_option("--memory", options.memory,
                   "GB that a recipe may take beyond the program's own; 0: any number")
-      ->check(CLI::Range(0.0, 1e6))
+      ->check(number_in(0, 1e6))
       ->capture_default_str();
 }
 

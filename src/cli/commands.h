@@ -55,6 +55,9 @@ Command add_manual(CLI::App& program);
 /// The option `--set /POINTER=VALUE`, which may be repeated.
 void add_settings(CLI::App& parser, std::vector<std::string>& settings);
 
+/// Numbers from `least` to `most`: CLI::Range takes "nan" as well.
+CLI::Validator number_in(double least, double most);
+
 /// Where results of stages are looked for and kept, as the command line says.
 struct CacheArguments {
   std::string folder;  ///< "none": nowhere; empty: the user's own

@@ -1,3 +1,5 @@
+#include <fmt/core.h>
+
 #include <charconv>
 
 #include "cli/commands.h"
@@ -11,6 +13,17 @@ void add_settings(CLI::App& parser, std::vector<std::string>& settings) {
           "Override an option by its JSON pointer; may be repeated (names: morphbake config)")
       ->type_name("/POINTER=VALUE")
       ->allow_extra_args(false);
+}
+
+CLI::Validator number_in(double least, double most) {
+  return CLI::Validator(
+      [least, most](const std::string& text) -> std::string {
+        double number = 0;
+        const bool is_number = CLI::detail::lexical_cast(text, number);
+        if (is_number && number >= least && number <= most) return "";
+        return fmt::format("'{}' is no number from {} to {}", text, least, most);
+      },
+      "NUMBER");
 }
 
 void add_node(CLI::App& parser, std::string& node) {

@@ -74,6 +74,9 @@ std::vector<fs::path> files_matching(const std::string& pattern) {
   }
   std::vector<fs::path> found;
   if (!steps.empty()) add_matches(folder, steps, 0, found);
+  std::erase_if(found, [](const fs::path& file) {
+    return file.string().ends_with(".landmarks.json");  // beside meshes, never recipes
+  });
   std::ranges::sort(found, {}, [](const fs::path& file) { return file.string(); });
   found.erase(std::unique(found.begin(), found.end()), found.end());
   return found;

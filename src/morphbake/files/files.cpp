@@ -26,7 +26,7 @@ namespace {
 
 [[noreturn]] void fail_to_write(const fs::path& path, int error) {
   fail("output.unwritable", path, fmt::format("cannot write: {}", std::strerror(error)),
-       "check that the folder is writable and has free space, or choose another with --output-dir");
+       "check that the folder is writable and has free space, or choose another folder");
 }
 
 constexpr std::size_t kTokenLetters = 16;
