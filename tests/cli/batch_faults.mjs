@@ -46,6 +46,22 @@ check(memory.stderr.includes('--memory'), memory.stderr);
 check(temporaries('memory').length === 0, `left: ${temporaries('memory')}`);
 batch(0, 'memory.jsonl', '-o', 'memory', '--memory', '4');
 
+// However little memory: OpenBLAS must not ask for it without end.
+for (const gigabytes of ['0.001', '0.05', '0.1']) {
+  const little = spawnSync(program, wordsOf(['memory.jsonl', '-o', `memory${gigabytes}`, '--memory', gigabytes]), { encoding: 'utf8', timeout: 60000 });
+  check(little.status === 3 && states(`memory${gigabytes}`).includes('memory.exhausted'), `${gigabytes} GB: ${little.status} ${little.signal} ${little.stderr}`);
+}
+
+// A file where a recipe's folder is to be stays as it is, as does what another recipe wrote there.
+mkdirSync('taken');
+writeFileSync('taken/m', 'of the user');
+writeFileSync('taken.jsonl', '{"recipe": "few/1.json", "name": "m"}\n');
+batch(3, 'taken.jsonl', '-o', 'taken');
+check(readFileSync('taken/m', 'utf8') === 'of the user', 'a file of the user is gone');
+writeFileSync('nested.jsonl', '{"recipe": "few/1.json", "name": "m"}\n{"recipe": "few/2.json", "name": "m/morph.glb"}\n');
+batch(3, 'nested.jsonl', '-o', 'nested');
+check(linesOf('nested/report.jsonl').filter(({ state }) => state === 'done').every(({ outputs }) => outputs.every(({ file }) => existsSync(path.join('nested', file)))), 'what is done is not there');
+
 // A crash, and a kill from outside.
 for (const [signal, text] of [['SIGSEGV', 'signal 11'], ['SIGKILL', 'run fewer at once']]) {
   const going = start('mixed.jsonl', '-o', `crash${signal}`);
