@@ -36,6 +36,15 @@ recipe finest '{"targets": "frames", "max_error": 1e-9}'
 bake 2 finest
 stderr_has "#/outputs/0/max_error"
 
+# The node that has the name may have the mesh on another below it, for the scale of its integers.
+recipe scaled '{"encoding": "quantized"}'
+bake 0 scaled
+named=$(node -e 'const b = require("fs").readFileSync("out/sweep.glb"); const j = JSON.parse(b.subarray(20, 20 + b.readUInt32LE(12)));
+  const i = j.nodes.findIndex((each) => each.children?.some((child) => j.nodes[child].mesh !== undefined)); console.log(i < 0 ? "" : j.nodes[i].name ?? i)')
+[ -n "$named" ] || wrong "the mesh of integers hangs on no node of its own"
+run 0 inspect out/sweep.glb --node "$named"
+run 0 lint out/sweep.glb --profile web-three --node "$named"
+
 rm -rf out
 recipe integers '{"targets": "frames", "max_error": 0.000001, "encoding": "quantized"}'
 bake 5 integers
