@@ -21,14 +21,15 @@ std::variant<MeshHealth, Problem> find_health(const GltfFile& file, int node,
   }
 }
 
-/// Adds what the targets of one primitive move.
-void count_motion(const AnimatedPrimitive& primitive, InspectFacts& facts) {
+/// Adds what the targets of one primitive move, in the scene.
+void count_motion(const AnimatedPrimitive& primitive, const Eigen::Matrix3d& to_scene,
+                  InspectFacts& facts) {
   std::vector<bool> moves(static_cast<std::size_t>(primitive.positions.rows()), false);
   for (std::size_t k = 0; k < primitive.target_positions.size(); ++k) {
     const Float3s& displacement = primitive.target_positions[k];
     TargetFacts& target = facts.targets[k];
     for (Eigen::Index v = 0; v < displacement.rows(); ++v) {
-      const double length = displacement.row(v).cast<double>().norm();
+      const double length = (to_scene * displacement.row(v).cast<double>().transpose()).norm();
       if (length == 0) continue;
       ++target.moving_vertices;
       target.largest_displacement = std::max(target.largest_displacement, length);
@@ -48,7 +49,7 @@ void add_primitives(const AnimatedMesh& mesh, InspectFacts& facts) {
       const Eigen::Vector3d position = primitive.positions.row(v).cast<double>();
       facts.bounds.extend(to_scene * position);
     }
-    count_motion(primitive, facts);
+    count_motion(primitive, to_scene.linear(), facts);
   }
 }
 

@@ -19,7 +19,7 @@ namespace morphbake::cli {
 struct TargetFacts {
   std::string name;
   int moving_vertices = 0;
-  double largest_displacement = 0;  ///< mesh units
+  double largest_displacement = 0;  ///< scene units
   double file_bytes = 0;            ///< of its accessors, compressed as they are
 };
 

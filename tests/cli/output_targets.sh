@@ -37,8 +37,15 @@ bake 2 finest
 stderr_has "#/outputs/0/max_error"
 
 # The node that has the name may have the mesh on another below it, for the scale of its integers.
+recipe plain '{"encoding": "float"}'
+bake 0 plain
+run 0 inspect out/sweep.glb --json
+moved=$(jq .largest_displacement "$scratch/stdout")
 recipe scaled '{"encoding": "quantized"}'
 bake 0 scaled
+run 0 inspect out/sweep.glb --json
+jq -e --argjson moved "$moved" '(.largest_displacement / $moved - 1) | fabs < 0.01' "$scratch/stdout" >/dev/null ||
+  wrong "integers move by $(jq .largest_displacement "$scratch/stdout"), floats by $moved"
 named=$(node -e 'const b = require("fs").readFileSync("out/sweep.glb"); const j = JSON.parse(b.subarray(20, 20 + b.readUInt32LE(12)));
   const i = j.nodes.findIndex((each) => each.children?.some((child) => j.nodes[child].mesh !== undefined)); console.log(i < 0 ? "" : j.nodes[i].name ?? i)')
 [ -n "$named" ] || wrong "the mesh of integers hangs on no node of its own"
