@@ -13,8 +13,7 @@ Positions still_positions(const SolvedRecipe& solved, const Still& still,
     return position_at(recipe, solved.mesh, solved.regions, solved.timeline, *time);
   }
   const State& state = recipe.states[static_cast<std::size_t>(std::get<int>(still.at))];
-  return solve_state(recipe, state, solved.mesh, solved.regions, solved.timeline.representation,
-                     options);
+  return solve_state(solved, state, options);
 }
 
 /// At the vertices of the first source's file, or no rows where colours do not change.

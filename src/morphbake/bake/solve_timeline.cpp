@@ -7,6 +7,7 @@
 
 #include "morphbake/bake/anchor_spike.h"
 #include "morphbake/bake/kept_stages.h"
+#include "morphbake/bake/solved_recipe.h"
 #include "morphbake/bake/timeline_changes.h"
 #include "morphbake/bake/timeline_system.h"
 #include "morphbake/json/json.h"
@@ -14,10 +15,17 @@
 namespace morphbake {
 namespace {
 
-StateSystem make_states(const MorphableMesh& mesh, const Shares& reference,
-                        const RepresentationChoice& choice,
-                        std::unique_ptr<DisplacementSystem> system, const SolveOptions& options,
-                        const Observer& observer) {
+/// What states of any kind need, but for their own shares.
+struct Solving {
+  const MorphableMesh& mesh;
+  const RepresentationChoice& choice;
+  const SolveOptions& options;
+  const Observer& observer;
+};
+
+StateSystem make_states(const Solving& solving, const Shares& reference,
+                        std::unique_ptr<DisplacementSystem> system) {
+  const auto& [mesh, choice, options, observer] = solving;
   switch (choice.representation) {
     case Representation::Rotation:
       return rotation_states(mesh, choice.deformations, reference, std::move(system), options,
@@ -81,10 +89,17 @@ SolveOptions options_for(const Recipe& recipe, Representation representation,
   return options;
 }
 
+/// A recipe, and its regions on so many vertices.
+struct RecipeOnMesh {
+  const Recipe& recipe;
+  const RegionFields& regions;
+  Eigen::Index count;
+};
+
 /// The timeline as shapes, where it is made of them, once all is checked.
-std::optional<SeparableTimeline> shapes_of(const Recipe& recipe, const RegionFields& regions,
-                                           Eigen::Index count, Representation representation,
+std::optional<SeparableTimeline> shapes_of(const RecipeOnMesh& given, Representation representation,
                                            const SolveOptions& options, const Observer& observer) {
+  const auto& [recipe, regions, count] = given;
   check_still_regions(recipe, regions);
   if (options.every_frame) {
     refuse_tracks(recipe, "the option /solve/every_frame solves frames instead");
@@ -201,7 +216,7 @@ void check_timeline(const Recipe& recipe, const MorphableMesh& mesh, const Regio
       choose_representation(recipe, mesh, observer).representation;
   const TimelineChanges changes =
       changes_of(recipe, regions, count,
-                 shapes_of(recipe, regions, count, representation, options, observer), observer);
+                 shapes_of({recipe, regions, count}, representation, options, observer), observer);
   choose_solver(*timeline_system(recipe, mesh, regions, changes, options),
                 options_for(recipe, representation, changes, options));
 }
@@ -217,11 +232,11 @@ std::unique_ptr<SolvedTimeline> solve_timeline(const Recipe& recipe, const Morph
   const Representation representation = solved->representation.representation;
   TimelineChanges changes =
       changes_of(recipe, regions, count,
-                 shapes_of(recipe, regions, count, representation, options, observer), observer);
+                 shapes_of({recipe, regions, count}, representation, options, observer), observer);
   const SolveOptions solving = options_for(recipe, representation, changes, options);
   solved->states = std::make_unique<StateSystem>(
-      make_states(mesh, changes.reference, solved->representation,
-                  timeline_system(recipe, mesh, regions, changes, options), solving, observer));
+      make_states({mesh, solved->representation, solving, observer}, changes.reference,
+                  timeline_system(recipe, mesh, regions, changes, options)));
   solved->separable = std::move(changes.separable);
   if (solving.every_frame) {
     solve_every_frame(recipe, regions, solving, observer, *solved);
@@ -245,15 +260,16 @@ Positions position_at(const Recipe& recipe, const MorphableMesh& mesh, const Reg
                     solved.states->goal(transition_at(recipe, regions, count, time)), "", records);
 }
 
-Positions solve_state(const Recipe& recipe, const State& state, const MorphableMesh& mesh,
-                      const RegionFields& regions, const RepresentationChoice& representation,
-                      const SolveOptions& options) {
+Positions solve_state(const SolvedRecipe& solved, const State& state, const SolveOptions& options) {
+  const auto& recipe = solved.recipe;
+  const auto& mesh = solved.mesh;
+  const auto& regions = solved.regions;
   const Eigen::Index count = mesh.connectivity.vertex_count;
   const TimelineChanges changes = changes_of_fields(separate_state(state, regions, count));
   const Observer nobody;
   const StateSystem states =
-      make_states(mesh, changes.reference, representation,
-                  timeline_system(recipe, mesh, regions, changes, options), options, nobody);
+      make_states({mesh, solved.timeline.representation, options, nobody}, changes.reference,
+                  timeline_system(recipe, mesh, regions, changes, options));
   const SurfaceSolver solver(*states.displacements, options, nobody);
   std::vector<SolveRecord> records;
   return states.rest + solve_goal(solver, states.goal(state_transition(state, regions, count)),

@@ -11,6 +11,8 @@
 
 namespace morphbake {
 
+struct SolvedRecipe;
+
 /// A timeline, solved: its shapes where it is made of them, else its frames alone.
 struct SolvedTimeline {
   RepresentationChoice representation;
@@ -46,8 +48,6 @@ Positions position_at(const Recipe& recipe, const MorphableMesh& mesh, const Reg
 /// Shape of one state, whose regions stand still, held and gauged for itself.
 ///
 /// @return #V by 3, scene space
-Positions solve_state(const Recipe& recipe, const State& state, const MorphableMesh& mesh,
-                      const RegionFields& regions, const RepresentationChoice& representation,
-                      const SolveOptions& options);
+Positions solve_state(const SolvedRecipe& solved, const State& state, const SolveOptions& options);
 
 }  // namespace morphbake

@@ -18,6 +18,7 @@
 
 // From OpenBLAS, whose headers Debian keeps in a folder of the alternative that is chosen.
 extern "C" void openblas_set_num_threads(int count);
+// NOLINTNEXTLINE(readability-identifier-naming): Fortran's name
 extern "C" void dsyrk_(const char* triangle, const char* transposed, const int* n, const int* k,
                        const double* alpha, const double* a, const int* lda, const double* beta,
                        double* c, const int* ldc);
