@@ -8,6 +8,7 @@
 
 #include "cli/commands.h"
 #include "morphbake/bake/bake.h"
+#include "morphbake/diagnostics/shown_text.h"
 #include "morphbake/files/files.h"
 #include "morphbake/recipe/read_recipe.h"
 
@@ -26,13 +27,6 @@ struct Arguments {
 };
 
 constexpr double kMostGigabytes = 1e6;  // as the schema of the options says
-
-std::string shown_bytes(std::size_t bytes) {
-  if (bytes < 1000) return fmt::format("{} B", bytes);
-  const double thousands = static_cast<double>(bytes) / 1000;
-  return thousands < 1000 ? fmt::format("{:.1f} kB", thousands)
-                          : fmt::format("{:.1f} MB", thousands / 1000);
-}
 
 /// The first names; `inspect` lists them all.
 std::string shown_names(const std::vector<std::string>& names) {
@@ -75,8 +69,8 @@ std::vector<std::string> summary_lines(const BakeReport& report) {
     lines.push_back(fmt::format("  from the cache: {}", shown_names(report.cached)));
   }
   for (const OutputReport& output : report.outputs) {
-    lines.push_back(
-        fmt::format("  {}: {}", output.file.filename().string(), shown_bytes(output.bytes)));
+    lines.push_back(fmt::format("  {}: {}", output.file.filename().string(),
+                                shown_bytes(static_cast<double>(output.bytes))));
     if (output.targets.empty()) continue;
     lines.push_back(fmt::format("    {} targets ({}): {}", output.targets.size(), output.kind,
                                 shown_names(output.targets)));

@@ -38,9 +38,8 @@ struct ExpectedCommand {
 /// @return  the program first, then its commands, each followed by its own
 std::vector<ExpectedCommand> expected_commands(const CLI::App& program);
 
-/// Scripts for the shells: bash (4 or later), zsh and fish.
+/// Scripts for the shells: bash (4 or later) and fish.
 std::string bash_completion(const std::vector<ExpectedCommand>& commands);
-std::string zsh_completion(const std::vector<ExpectedCommand>& commands);
 std::string fish_completion(const std::vector<ExpectedCommand>& commands);
 
 }  // namespace morphbake::cli

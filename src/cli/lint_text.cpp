@@ -55,12 +55,6 @@ std::string sparse_of(const Profile& profile) {
 
 }  // namespace
 
-std::string shown_bytes(double bytes) {
-  if (bytes < 1e3) return fmt::format("{:.0f} bytes", bytes);
-  if (bytes < 1e6) return fmt::format("{:.1f} kB", bytes / 1e3);
-  return fmt::format("{:.1f} MB", bytes / 1e6);
-}
-
 std::string shown_memory(const std::vector<GpuMemory>& memory) {
   std::string text;
   for (const GpuMemory& each : memory) {

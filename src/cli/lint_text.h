@@ -16,9 +16,6 @@ std::vector<std::string> lint_lines(const LintReport& report, const Profile& pro
 /// All shipped profiles and all rules, in lines for people.
 std::vector<std::string> rule_lines();
 
-/// "1.2 MB": bytes for people.
-std::string shown_bytes(double bytes);
-
 /// "three.js 1.2 MB, ...": GPU memory of targets.
 std::string shown_memory(const std::vector<GpuMemory>& memory);
 

@@ -8,6 +8,7 @@
 #include "cli/commands.h"
 #include "cli/exit_code.h"
 #include "cli/interrupt.h"
+#include "morphbake/diagnostics/bug.h"
 #include "morphbake/version.h"
 
 namespace morphbake::cli {
@@ -98,11 +99,7 @@ void add_global_flags(CLI::App& program, GlobalFlags& flags) {
 }
 
 ExitCode tell_bug(Terminal& terminal, std::string_view what) {
-  Problem problem;
-  problem.code = "bug.unexpected";
-  problem.message = what;
-  problem.hint = "this is a bug of morphbake: please report it with the recipe and its sources";
-  terminal.problem(problem);
+  terminal.problem(bug(std::string(what)));
   return ExitCode::Bug;
 }
 

@@ -8,7 +8,7 @@
 #include <cstdlib>
 
 #include "cli/interrupt.h"
-#include "morphbake/json/json.h"
+#include "morphbake/json/problem_json.h"
 
 namespace morphbake::cli {
 namespace {
@@ -17,21 +17,6 @@ constexpr int kBarWidth = 24;
 
 std::string one_line(const Json& json) {
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);
-}
-
-Json to_json(const Problem& problem) {
-  Json json;
-  json["severity"] = problem.severity == Severity::Error ? "error" : "warning";
-  json["code"] = problem.code;
-  json["file"] = problem.location.file;
-  json["pointer"] = problem.location.pointer;
-  if (problem.location.line > 0) {
-    json["line"] = problem.location.line;
-    json["column"] = problem.location.column;
-  }
-  json["message"] = problem.message;
-  json["hint"] = problem.hint;
-  return json;
 }
 
 Json to_json(const BatchProgress& progress) {
@@ -99,7 +84,7 @@ void Terminal::result(std::string_view text) {
 }
 
 void Terminal::problem(const Problem& problem) {
-  if (settings_.log == LogFormat::Json) return print_log(one_line(to_json(problem)));
+  if (settings_.log == LogFormat::Json) return print_log(one_line(problem_to_json(problem)));
   std::string text = format_problem(problem);
   print_log(settings_.use_colour ? coloured(std::move(text), problem.severity) : text);
 }

@@ -63,7 +63,7 @@ const entries = {
   shapes: [{ names: ['a'], report: solve }, [48, 48]],
   regions: [{ softness: [0.5, 0] }, [16, 16]],
   files: [{ endings: ['.gif'] }, [1]],
-  output: [{ kind: 'tracks', targets: ['a'], weight_keys: 2, max_error: 0, worst_time: 0, worst_vertex: 0, node: 0, normals: { maximum: 0, percentile_99: 0, time: 0, vertex: 0 } }, [4]],
+  output: [{ node: 0, report: { kind: 'tracks', targets: ['a'], weight_keys: 2, max_error: 0, worst_time: 0, worst_vertex: 0, normals: { maximum: 0, percentile_99: 0, time: 0, vertex: 0 } } }, [4]],
   report: [{ vertices: 2, triangles: 1, components: 1, frames: 2, solve, connectivity: { mode: 'remesh', vertices: 2, triangles: 1, repairs: [{ source: 'a', repairs: { degenerate: 0, duplicate: 0, turned: 0 } }], steps: [{ name: 'sphere', seconds: 1 }], texture: null, quality: null } }, []],
 };
 for (const [name, [facts, blobs]] of Object.entries(entries)) {

@@ -1,7 +1,7 @@
 #include <string_view>
 
 #include "morphbake/bake/golden.h"
-#include "morphbake/json/json.h"
+#include "morphbake/json/problem_json.h"
 #include "morphbake/version.h"
 
 namespace morphbake {
@@ -23,19 +23,6 @@ std::string_view name_of(GoldenVerdict verdict) {
   return "failed";
 }
 
-Json to_json(const std::vector<Problem>& problems) {
-  Json list = Json::array();
-  for (const Problem& problem : problems) {
-    list.push_back({{"severity", problem.severity == Severity::Error ? "error" : "warning"},
-                    {"code", problem.code},
-                    {"file", problem.location.file},
-                    {"pointer", problem.location.pointer},
-                    {"message", problem.message},
-                    {"hint", problem.hint}});
-  }
-  return list;
-}
-
 Json to_json(const GoldenOutput& output) {
   Json json;
   json["name"] = output.name;
@@ -45,7 +32,7 @@ Json to_json(const GoldenOutput& output) {
   for (const std::filesystem::path& file : output.evidence) {
     json["evidence"].push_back(file.string());
   }
-  json["problems"] = to_json(output.problems);
+  json["problems"] = problems_to_json(output.problems);
   if (output.difference) {
     const std::string text = difference_json(*output.difference);
     json["difference"] = parse_json(text, "difference", {.string_bytes = text.size()});
@@ -63,7 +50,7 @@ std::string golden_json(const std::vector<GoldenRecipe>& recipes) {
   for (const GoldenRecipe& recipe : recipes) {
     Json entry;
     entry["recipe"] = recipe.recipe;
-    entry["problems"] = to_json(recipe.problems);
+    entry["problems"] = problems_to_json(recipe.problems);
     entry["outputs"] = Json::array();
     for (const GoldenOutput& output : recipe.outputs) entry["outputs"].push_back(to_json(output));
     json["recipes"].push_back(std::move(entry));

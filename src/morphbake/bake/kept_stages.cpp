@@ -148,60 +148,31 @@ std::optional<KeptShapes> shapes_of(const CacheEntry& entry, std::size_t fields,
 }
 
 CacheEntry entry_of(const BakedOutput& output) {
-  const OutputReport& report = output.report;
-  const Facts facts = {{"kind", report.kind},
-                       {"targets", report.targets},
-                       {"weight_keys", report.weight_keys},
-                       {"max_error", report.max_error},
-                       {"worst_time", report.worst_time},
-                       {"worst_vertex", report.worst_vertex},
-                       {"normals", report.normals},
-                       {"node", output.node}};
-  return {facts.dump(), {output.glb}};
+  return {Facts({{"report", output.report}, {"node", output.node}}).dump(), {output.glb}};
 }
 
 std::optional<BakedOutput> output_of(CacheEntry entry, const std::filesystem::path& file) {
   if (entry.blobs.size() != 1) return {};
   return reading<BakedOutput>(entry, [&](const Facts& facts) {
     BakedOutput output;
-    output.glb = std::move(entry.blobs[0]);
+    facts.at("report").get_to(output.report);
     facts.at("node").get_to(output.node);
-    OutputReport& report = output.report;
-    report.file = file;
-    report.bytes = output.glb.size();
-    facts.at("kind").get_to(report.kind);
-    facts.at("targets").get_to(report.targets);
-    facts.at("weight_keys").get_to(report.weight_keys);
-    facts.at("max_error").get_to(report.max_error);
-    facts.at("worst_time").get_to(report.worst_time);
-    facts.at("worst_vertex").get_to(report.worst_vertex);
-    facts.at("normals").get_to(report.normals);
+    output.glb = std::move(entry.blobs[0]);
+    output.report.file = file;
+    output.report.bytes = output.glb.size();
     return output;
   });
 }
 
-CacheEntry entry_of(const BakeReport& report) {
-  return {Facts({{"vertices", report.vertices},
-                 {"triangles", report.triangles},
-                 {"components", report.components},
-                 {"frames", report.frames},
-                 {"connectivity", report.connectivity},
-                 {"solve", report.solve}})
-              .dump(),
-          {}};
-}
+CacheEntry entry_of(const BakeReport& report) { return {Facts(report).dump(), {}}; }
 
 bool fill_in(const CacheEntry& entry, BakeReport& report) {
-  const auto filled = reading<bool>(entry, [&](const Facts& facts) {
-    facts.at("vertices").get_to(report.vertices);
-    facts.at("triangles").get_to(report.triangles);
-    facts.at("components").get_to(report.components);
-    facts.at("frames").get_to(report.frames);
-    facts.at("connectivity").get_to(report.connectivity);
-    facts.at("solve").get_to(report.solve);
-    return true;
-  });
-  return filled.has_value();
+  return reading<bool>(entry,
+                       [&](const Facts& facts) {
+                         facts.get_to(report);
+                         return true;
+                       })
+      .has_value();
 }
 
 CacheEntry entry_of(const KeptFiles& files) {

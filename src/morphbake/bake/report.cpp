@@ -1,19 +1,10 @@
 #include "morphbake/bake/bake.h"
 #include "morphbake/bake/remesh.h"
-#include "morphbake/json/json.h"
+#include "morphbake/json/problem_json.h"
 #include "morphbake/version.h"
 
 namespace morphbake {
 namespace {
-
-Json to_json(const Problem& problem) {
-  return {{"severity", problem.severity == Severity::Error ? "error" : "warning"},
-          {"code", problem.code},
-          {"file", problem.location.file},
-          {"pointer", problem.location.pointer},
-          {"message", problem.message},
-          {"hint", problem.hint}};
-}
 
 Json to_json(const NormalReport& normals) {
   return {{"maximum", normals.maximum},
@@ -67,12 +58,6 @@ Json to_json(const std::vector<StageReport>& stages) {
   for (const StageReport& stage : stages) {
     list.push_back({{"name", stage.name}, {"seconds", stage.seconds}});
   }
-  return list;
-}
-
-Json to_json(const std::vector<Problem>& problems) {
-  Json list = Json::array();
-  for (const Problem& problem : problems) list.push_back(to_json(problem));
   return list;
 }
 
@@ -172,7 +157,7 @@ std::string report_to_json(const BakeReport& report) {
   json["stages"] = to_json(report.stages);
   json["cached"] = report.cached;
   json["outputs"] = list_of(report.outputs);
-  json["problems"] = to_json(report.problems);
+  json["problems"] = problems_to_json(report.problems);
   return json.dump(2) + "\n";
 }
 
@@ -182,7 +167,7 @@ std::string report_to_json(const RemeshReport& report) {
                {"connectivity", to_json(report.connectivity)}};
   json["files"] = Json::array();
   for (const auto& file : report.files) json["files"].push_back(file.string());
-  json["problems"] = to_json(report.problems);
+  json["problems"] = problems_to_json(report.problems);
   return json.dump(2) + "\n";
 }
 

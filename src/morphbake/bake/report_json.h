@@ -65,5 +65,11 @@ NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(SolveRecord, name, time, convergence)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(SolveReport, representation, representation_reason, solver,
                                    reason, unknowns, held, factor_bytes, solves)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(NormalReport, maximum, percentile_99, time, vertex)
+// But for what the output itself tells: where it is, how large, which pictures it has.
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(OutputReport, kind, targets, weight_keys, max_error, worst_time,
+                                   worst_vertex, normals)
+// What the stages before the outputs tell.
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(BakeReport, vertices, triangles, components, frames,
+                                   connectivity, solve)
 
 }  // namespace morphbake

@@ -18,6 +18,7 @@ namespace fs = std::filesystem;
 struct Described {
   const Recipe& recipe;
   Json document;
+  Json options;  ///< of all stages, as options_to_json
   InputFiles& files;
 };
 
@@ -123,33 +124,31 @@ Json mask_hashes(const Described& described) {
   return hashes;
 }
 
-StageKey describe_shapes(const Described& described, const BakeOptions& options,
-                         const StageKey& connectivity) {
+StageKey describe_shapes(const Described& described, const StageKey& connectivity) {
   Json description = {{"stage", "shapes"},
                       {"connectivity", connectivity.key},
                       {"masks", mask_hashes(described)},
-                      {"options", parse_json(options_to_json(options), "options")["solve"]}};
+                      {"options", described.options["solve"]}};
   for (const char* field : {"units", "regions", "representation", "hold", "gauge"}) {
     description[field] = or_null(described.document, field);
   }
   return key_of("shapes", description);
 }
 
-StageKey describe_solve(const Described& described, const BakeOptions& options,
-                        const StageKey& connectivity) {
+StageKey describe_solve(const Described& described, const StageKey& connectivity) {
   // Fields of which other stages' descriptions have what they need, or that decide nothing.
   constexpr std::array kElsewhere = {"$schema", "include", "sources", "connectivity", "options",
                                      "outputs", "preview", "name",    "version"};
   Json rest = described.document;
   for (const char* field : kElsewhere) rest.erase(field);
-  const Json all_options = parse_json(options_to_json(options), "options");
   return key_of("solve",
                 {{"stage", "solve"},
                  {"connectivity", connectivity.key},
                  {"derived", derived_sources(described)},
                  {"recipe", std::move(rest)},
                  {"masks", mask_hashes(described)},
-                 {"options", {{"solve", all_options["solve"]}, {"basis", all_options["basis"]}}}});
+                 {"options",
+                  {{"solve", described.options["solve"]}, {"basis", described.options["basis"]}}}});
 }
 
 /// The file of an output's own profile; empty when it has none, or a shipped one.
@@ -173,25 +172,21 @@ StageKey describe_output(const Described& described, std::size_t index, const St
 }
 
 /// @param shown  the output that they show
-StageKey describe_preview(const Described& described, const StageKey& shown,
-                          const BakeOptions& options) {
-  const Json all_options = parse_json(options_to_json(options), "options");
+StageKey describe_preview(const Described& described, const StageKey& shown) {
   Json preview = or_null(described.document, "preview");
   preview.erase("maps");
   return key_of("preview of " + shown.name.substr(std::string_view("output ").size()),
                 {{"stage", "preview"},
                  {"of", shown.key},
                  {"preview", std::move(preview)},
-                 {"turntable", all_options["turntable"]}});
+                 {"turntable", described.options["turntable"]}});
 }
 
-StageKey describe_maps(const Described& described, const StageKey& solve,
-                       const BakeOptions& options) {
-  const Json all_options = parse_json(options_to_json(options), "options");
+StageKey describe_maps(const Described& described, const StageKey& solve) {
   return key_of("maps", {{"stage", "maps"},
                          {"of", solve.key},
                          {"maps", described.document.at("preview").at("maps")},
-                         {"turntable", all_options["turntable"]}});
+                         {"turntable", described.options["turntable"]}});
 }
 
 }  // namespace
@@ -204,26 +199,28 @@ BakeKeys no_keys(const Recipe& recipe) {
 }
 
 BakeKeys bake_keys(const Recipe& recipe, const BakeOptions& options, InputFiles& files) {
-  const Described described{recipe, parse_json(recipe.document, recipe.file.string()), files};
+  const Described described{recipe, parse_json(recipe.document, recipe.file.string()),
+                            parse_json(options_to_json(options), "options"), files};
   BakeKeys keys;
   keys.connectivity = describe_connectivity(described);
   keys.regions = describe_regions(described, keys.connectivity);
   keys.derived = describe_derived(described, keys.connectivity);
-  keys.shapes = describe_shapes(described, options, keys.connectivity);
-  keys.solve = describe_solve(described, options, keys.connectivity);
+  keys.shapes = describe_shapes(described, keys.connectivity);
+  keys.solve = describe_solve(described, keys.connectivity);
   for (std::size_t i = 0; i < recipe.outputs.size(); ++i) {
     keys.outputs.push_back(describe_output(described, i, keys.solve));
   }
   if (!recipe.preview) return keys;
   for (const StageKey& output : keys.outputs) {
-    keys.previews.push_back(describe_preview(described, output, options));
+    keys.previews.push_back(describe_preview(described, output));
   }
-  if (!recipe.preview->maps.empty()) keys.maps = describe_maps(described, keys.solve, options);
+  if (!recipe.preview->maps.empty()) keys.maps = describe_maps(described, keys.solve);
   return keys;
 }
 
 std::string connectivity_key(const Recipe& recipe, InputFiles& files) {
-  return describe_connectivity({recipe, parse_json(recipe.document, recipe.file.string()), files})
+  return describe_connectivity(
+             {recipe, parse_json(recipe.document, recipe.file.string()), {}, files})
       .key;
 }
 

@@ -10,6 +10,7 @@
 #include "morphbake/bake/bake.h"
 #include "morphbake/bake/stage_keys.h"
 #include "morphbake/batch/file_states.h"
+#include "morphbake/diagnostics/bug.h"
 #include "morphbake/files/file_lock.h"
 #include "morphbake/files/files.h"
 #include "morphbake/json/json.h"
@@ -157,14 +158,6 @@ Problem out_of_memory(const BatchEntry& entry) {
           "allow more with --memory, run fewer at once (-j), or bake smaller meshes"};
 }
 
-Problem bug(const BatchEntry& entry, const std::string& what) {
-  return {Severity::Error,
-          "bug.unexpected",
-          {entry.recipe.string(), "", 0, 0},
-          what,
-          "this is a bug of morphbake: please report it with the recipe and its sources"};
-}
-
 }  // namespace
 
 BatchRecord begun_record(const BatchEntry& entry, const fs::path& folder,
@@ -198,7 +191,9 @@ JobResult run_job(const BakeJob& job, const BatchOptions& options,
   } catch (const std::bad_alloc&) {
     result.record.problems = {out_of_memory(job.entry)};
   } catch (const std::exception& error) {
-    result.record.problems = {bug(job.entry, error.what())};
+    Problem problem = bug(error.what());
+    problem.location.file = job.entry.recipe.string();
+    result.record.problems = {std::move(problem)};
   }
   const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - began;
   const bool is_as_before = result.kind == JobResult::Kind::Unchanged;

@@ -71,12 +71,6 @@ std::string url_of(const std::string& file) {
   return url;
 }
 
-std::string shown_bytes(double bytes) {
-  if (bytes < 1000) return fmt::format("{:.0f} B", bytes);
-  if (bytes < 1e6) return fmt::format("{:.1f} kB", bytes / 1e3);
-  return fmt::format("{:.1f} MB", bytes / 1e6);
-}
-
 /// A cell that is sorted by a number and shows a text.
 std::string number_cell(double number, const std::string& shown_number) {
   return fmt::format("<td class=n data-v={}>{}</td>", number, escaped(shown_number));

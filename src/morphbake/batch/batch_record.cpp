@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "morphbake/json/json.h"
+#include "morphbake/json/problem_json.h"
 #include "morphbake/version.h"
 
 namespace morphbake {
@@ -63,18 +63,6 @@ BakeSummary summary_of(const Json& json) {
   return summary;
 }
 
-Json to_json(const Problem& problem) {
-  Json json = {{"severity", problem.severity == Severity::Error ? "error" : "warning"},
-               {"code", problem.code},
-               {"file", problem.location.file},
-               {"pointer", problem.location.pointer}};
-  if (problem.location.line > 0) json["line"] = problem.location.line;
-  if (problem.location.column > 0) json["column"] = problem.location.column;
-  json["message"] = problem.message;
-  json["hint"] = problem.hint;
-  return json;
-}
-
 Problem problem_of(const Json& json) {
   Problem problem;
   problem.severity = json.at("severity") == "error" ? Severity::Error : Severity::Warning;
@@ -88,10 +76,9 @@ Problem problem_of(const Json& json) {
   return problem;
 }
 
-template <typename Item>
-Json list_of(const std::vector<Item>& items) {
+Json list_of(const std::vector<FileState>& states) {
   Json list = Json::array();
-  for (const Item& item : items) list.push_back(to_json(item));
+  for (const FileState& state : states) list.push_back(to_json(state));
   return list;
 }
 
@@ -123,7 +110,7 @@ std::string record_to_line(const BatchRecord& record) {
   if (!record.set.empty()) json["set"] = parse_json(record.set, "set", kLimits);
   json["seconds"] = record.seconds;
   if (record.summary) json["bake"] = to_json(*record.summary);
-  json["problems"] = list_of(record.problems);
+  json["problems"] = problems_to_json(record.problems);
   if (!record.log.empty()) json["log"] = record.log;
   json["morphbake"] = version_with_commit();
   json["request"] = record.request;

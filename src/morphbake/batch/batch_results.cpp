@@ -1,35 +1,16 @@
 #include "morphbake/batch/batch_results.h"
 
 #include <algorithm>
-#include <fstream>
+#include <cerrno>
 #include <optional>
 
 #include "morphbake/batch/batch_page.h"
 #include "morphbake/batch/line_reader.h"
-#include "morphbake/files/files.h"
 
 namespace morphbake {
 namespace {
 
 namespace fs = std::filesystem;
-
-[[noreturn]] void fail_to_write(const fs::path& file, const std::string& message) {
-  throw BakeError(Problem{Severity::Error,
-                          "output.unwritable",
-                          {file.string(), "", 0, 0},
-                          "cannot write: " + message,
-                          "check that the folder is writable and has free space"});
-}
-
-/// Writes a file as a whole by what `write` puts into it.
-void write_file(const fs::path& file, const std::function<void(std::ostream&)>& write) {
-  PendingOutputs outputs;
-  std::ofstream stream(outputs.stage_external(file), std::ios::binary);
-  write(stream);
-  stream.close();
-  if (!stream) fail_to_write(file, "the disk is full, or takes no more");
-  outputs.commit();
-}
 
 void for_each_line(const fs::path& report, const std::function<void(const std::string&)>& take) {
   for (LineReader reader(report); reader.next();) take(reader.line());
@@ -68,8 +49,8 @@ fs::path make_batch_folder(const fs::path& folder) {
   std::error_code error;
   fs::create_directories(folder, error);
   const fs::path canonical = fs::canonical(folder, error);
-  if (error) fail_to_write(folder, error.message());
-  if (!fs::is_directory(canonical)) fail_to_write(folder, "this is no folder");
+  if (error) fail_to_write(folder, error.value());
+  if (!fs::is_directory(canonical)) fail_to_write(folder, ENOTDIR);
   return canonical;
 }
 
@@ -87,14 +68,14 @@ BatchResult write_results(const fs::path& folder, const BatchOptions& options,
     });
   });
   result.progress.total = result.progress.done;
-  write_file(result.failures, [&](std::ostream& failures) {
+  write_whole(result.failures, [&](std::ostream& failures) {
     for_each_line(result.report, [&](const std::string& line) {
       if (!start_of_line(line).is_done) failures << line << '\n';
     });
   });
   if (!options.write_page) return shown_in(options.folder, result);
   result.page = folder / "index.html";
-  write_file(result.page, [&](std::ostream& page) {
+  write_whole(result.page, [&](std::ostream& page) {
     write_page_start(page, result.progress);
     for_each_line(result.report, [&](const std::string& line) {
       const std::optional<BatchRecord> record = record_from_line(line);

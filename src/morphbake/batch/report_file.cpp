@@ -24,14 +24,6 @@ fs::path named(const fs::path& folder, const char* what, const Shard& shard) {
   return folder / fmt::format("{}.{}-of-{}.jsonl", what, shard.index, shard.count);
 }
 
-[[noreturn]] void fail_to_write(const fs::path& file, int error) {
-  throw BakeError(Problem{Severity::Error,
-                          "output.unwritable",
-                          {file.string(), "", 0, 0},
-                          fmt::format("cannot write: {}", std::strerror(error)),
-                          "check that the folder is writable and has free space"});
-}
-
 /// Whether `descriptor` is still the file that has this name.
 bool is_still(const fs::path& file, int descriptor) {
   struct stat opened = {};
@@ -58,6 +50,23 @@ bool ends_torn(int descriptor, off_t size) {
 }
 
 }  // namespace
+
+void fail_to_write(const fs::path& file, int error) {
+  throw BakeError(Problem{Severity::Error,
+                          "output.unwritable",
+                          {file.string(), "", 0, 0},
+                          fmt::format("cannot write: {}", std::strerror(error)),
+                          "check that the folder is writable and has free space"});
+}
+
+void write_whole(const fs::path& file, const std::function<void(std::ostream&)>& write) {
+  PendingOutputs outputs;
+  std::ofstream stream(outputs.stage_external(file), std::ios::binary);
+  write(stream);
+  stream.close();
+  if (!stream) fail_to_write(file, ENOSPC);
+  outputs.commit();
+}
 
 fs::path report_file(const fs::path& folder, const Shard& shard) {
   return named(folder, "report", shard);
@@ -98,14 +107,7 @@ void append_line(const fs::path& report, const std::string& line) {
 }
 
 void replace_report(const fs::path& report, const std::function<void(std::ostream&)>& write) {
-  with_locked(report, [&](int) {
-    PendingOutputs outputs;
-    std::ofstream stream(outputs.stage_external(report), std::ios::binary);
-    write(stream);
-    stream.close();
-    if (!stream) fail_to_write(report, ENOSPC);
-    outputs.commit();
-  });
+  with_locked(report, [&](int) { write_whole(report, write); });
 }
 
 ReportIndex::ReportIndex(const std::vector<fs::path>& reports) {

@@ -10,6 +10,15 @@
 
 namespace morphbake {
 
+/// @throws BakeError "output.unwritable" for an errno
+[[noreturn]] void fail_to_write(const std::filesystem::path& file, int error);
+
+/// Writes a file by what `write` puts into it; it appears when it is whole.
+///
+/// @throws BakeError "output.unwritable"
+void write_whole(const std::filesystem::path& file,
+                 const std::function<void(std::ostream&)>& write);
+
 /// Which part of a list a run bakes: `index` of `count`, from 1.
 struct Shard {
   int index = 1;

@@ -17,4 +17,10 @@ std::string without_control_characters(const std::string& text) {
   return shown;
 }
 
+std::string shown_bytes(double bytes) {
+  if (bytes < 1e3) return fmt::format("{:.0f} bytes", bytes);
+  if (bytes < 1e6) return fmt::format("{:.1f} kB", bytes / 1e3);
+  return fmt::format("{:.1f} MB", bytes / 1e6);
+}
+
 }  // namespace morphbake

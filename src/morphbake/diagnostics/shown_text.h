@@ -8,4 +8,7 @@ namespace morphbake {
 /// and a terminal must not act on it.
 std::string without_control_characters(const std::string& text);
 
+/// "12 bytes", "3.4 kB", "5.6 MB".
+std::string shown_bytes(double bytes);
+
 }  // namespace morphbake

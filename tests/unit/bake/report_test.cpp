@@ -44,7 +44,7 @@ BakeReport full_report() {
   output.previews = {"out/nose.gif"};
   report.outputs = {output};
   report.problems = {
-      {Severity::Warning, "export.many-targets", {"a.json", "/outputs/0"}, "many", "fewer"}};
+      {Severity::Warning, "export.many-targets", {"a.csv", "/outputs/0", 3, 2}, "many", "fewer"}};
   return report;
 }
 
