@@ -18,12 +18,17 @@ void run_cache(const Arguments& arguments, Terminal& terminal) {
     terminal.result("no cache");
     return;
   }
-  if (arguments.clear) cache.clear();
+  const std::string folder = cache.options().folder.string();
   const CacheContents contents = cache.contents();
-  terminal.result(fmt::format("{}: {} entries, {:.1f} MB of {:.1f}",
-                              cache.options().folder.string(), contents.entries,
-                              static_cast<double>(contents.bytes) / 1e6,
-                              static_cast<double>(cache.options().size_limit) / 1e6));
+  const double megabytes = static_cast<double>(contents.bytes) / 1e6;
+  if (arguments.clear) {
+    cache.clear();
+    terminal.result(
+        fmt::format("{}: removed {} entries, {:.1f} MB", folder, contents.entries, megabytes));
+    return;
+  }
+  terminal.result(fmt::format("{}: {} entries, {:.1f} MB of {:.1f}", folder, contents.entries,
+                              megabytes, static_cast<double>(cache.options().size_limit) / 1e6));
 }
 
 }  // namespace

@@ -186,7 +186,9 @@ check(total <= limit * 1e9, `${total} bytes, more than ${limit * 1e9}`);
 const told = run(0, ['cache', '--cache', CACHE]).stdout;
 check(told.includes(`${entries().length} entries`), told);
 writeFileSync(path.join(CACHE, 'mine.txt'), 'of the user');
-run(0, ['cache', '--clear', '--cache', CACHE]);
+const kept = entries().length;
+const removed = run(0, ['cache', '--clear', '--cache', CACHE]).stdout;
+check(removed.includes(`removed ${kept} entries`), removed);
 check(entries().length === 0 && existsSync(path.join(CACHE, 'mine.txt')), 'clears too little or too much');
 
 // Several bakes of one recipe at once, into one folder and one cache.

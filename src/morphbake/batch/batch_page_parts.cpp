@@ -48,6 +48,7 @@ constexpr std::string_view kTableStart = R"(<form onsubmit="return false">
 <input id=words type=search placeholder="part of a name" aria-label="part of a name">
 <select id=state aria-label="state"><option value="">done and failed</option><option>done</option><option>failed</option></select>
 </form>
+<p>Max error: of positions, a share of the diagonal. Normals: degrees off. Cached: stages taken from the cache; point at a number for names, at seconds for those of each stage.</p>
 <table>
 <thead><tr><th></th>
 <th><button>name</button></th><th><button>state</button></th><th class=n><button>vertices</button></th>

@@ -42,11 +42,10 @@ void EntryNames::complain(const BakeError& error) {
   for (const Problem& problem : error.problems()) complain(problem);
 }
 
-std::vector<std::string> EntryNames::finish(const Location& at) {
+std::vector<std::string> EntryNames::finish(const Location& at, const std::string& hint) {
   if (!problems_.empty()) throw BakeError(std::move(problems_));
   if (names_.empty()) {
-    throw BakeError(Problem{Severity::Error, "batch.empty", at, "this names no recipe",
-                            "a line of a list is a recipe's file name in quotes"});
+    throw BakeError(Problem{Severity::Error, "batch.empty", at, "this names no recipe", hint});
   }
   lines_.clear();
   return std::move(names_);

@@ -23,8 +23,9 @@ class EntryNames {
   void complain(Problem problem);
   void complain(const BakeError& error);
 
+  /// @param hint  what to do where there is no name
   /// @throws BakeError with all problems; "batch.empty" when there is no name
-  std::vector<std::string> finish(const Location& at);
+  std::vector<std::string> finish(const Location& at, const std::string& hint);
 
  private:
   std::vector<std::string> names_;

@@ -19,6 +19,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr const char* kListHint = "a line of a list is a recipe's file name in quotes";
+constexpr const char* kTableHint =
+    R"(a line of a table is an object such as {"/timeline/duration": 2})";
 constexpr const char* kNameHint = R"(give the recipe a "name", such as "faces/nose")";
 
 /// How a recipe is called that is named as `file` from the manifest's folder on.
@@ -70,7 +73,7 @@ Manifest read_lines(const fs::path& list, const fs::path& recipe) {
     }
   }
   Manifest manifest;
-  manifest.names = names.finish({list.string(), "", 0, 0});
+  manifest.names = names.finish({list.string(), "", 0, 0}, is_table ? kTableHint : kListHint);
   // The file stays open, so that another that takes its name meanwhile is not read.
   auto stream = std::make_shared<std::ifstream>(list, std::ios::binary);
   manifest.read = [=, places = std::move(places)](std::size_t i) {
@@ -90,7 +93,7 @@ Manifest read_pattern(const std::string& pattern) {
     names.take(default_name(below), {file.string(), "", 0, 0}, "name other files");
   }
   Manifest manifest;
-  manifest.names = names.finish({pattern, "", 0, 0});
+  manifest.names = names.finish({pattern, "", 0, 0}, "no file matches: see what `ls` finds");
   manifest.read = [files = std::move(files)](std::size_t i) {
     return BatchEntry{"", files[i], {}, {files[i].string(), "", 0, 0}};
   };
@@ -132,12 +135,12 @@ Manifest read_manifest(const fs::path& named, const fs::path& table) {
     EntryNames names;
     const Location at{named.string(), "", 0, 0};
     names.take(default_name(named.filename()), at, "call the file otherwise");
-    return {names.finish(at), [=](std::size_t) { return BatchEntry{"", named, {}, at}; }};
+    return {names.finish(at, kNameHint), [=](std::size_t) { return BatchEntry{"", named, {}, at}; }};
   }
   if (!table.empty()) refuse(named, "a table is of one recipe", "name one recipe (.json)");
   if (named.extension() != ".jsonl") {
     refuse(named, "this is neither a list (.jsonl) nor a recipe (.json)",
-           "a line of a list is a recipe's file name in quotes");
+           kListHint);
   }
   return read_lines(named, {});
 }

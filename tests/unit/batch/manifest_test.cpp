@@ -66,7 +66,7 @@ TEST(Manifest, RefusesWhatNamesNothing) {
   const auto told = [&](const std::string& name) {
     return test::problems_of([&] { read_manifest(folder.path() / name, {}); });
   };
-  EXPECT_THAT(told("*.json"), HasSubstr("[batch.empty]"));
+  EXPECT_THAT(told("*.json"), AllOf(HasSubstr("[batch.empty]"), HasSubstr("no file matches")));
   EXPECT_THAT(told("none.jsonl"), HasSubstr("[files.missing]"));
   EXPECT_THAT(told("."), AllOf(HasSubstr("this is a folder"), HasSubstr("**/*.json")));
   folder.write("list.txt", "\"a.json\"");
@@ -142,7 +142,8 @@ TEST(Table, TellsLineAndCell) {
   EXPECT_THAT(table_faults("t.csv", "name\nx\nx\n"),
               AllOf(HasSubstr("t.csv:3:"), HasSubstr("[batch.duplicate-name]")));
   EXPECT_THAT(table_faults("t.csv", "/a\n\xff\n"), HasSubstr("no UTF-8"));
-  EXPECT_THAT(table_faults("t.csv", "/a\n"), HasSubstr("[batch.empty]"));
+  EXPECT_THAT(table_faults("t.csv", "/a\n"),
+              AllOf(HasSubstr("[batch.empty]"), HasSubstr("write a row")));
   EXPECT_THAT(table_faults("t.csv", ""), HasSubstr("[batch.bad-table]"));
   EXPECT_THAT(table_faults("t.jsonl", "{\"a\": 1}\n"),
               AllOf(HasSubstr("t.jsonl#/a:1:"), HasSubstr("[batch.bad-table]")));
