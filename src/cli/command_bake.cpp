@@ -19,7 +19,7 @@ struct Arguments {
   std::filesystem::path recipe;
   std::filesystem::path output_dir;
   std::vector<std::string> settings;
-  std::string preview = "recipe";
+  bool with_previews = true;
   std::filesystem::path report;
   int threads = 0;
   std::optional<double> memory_limit;
@@ -110,7 +110,7 @@ void run_bake(const Arguments& arguments, Terminal& terminal) {
   if (!arguments.output_dir.empty()) {
     recipe = redirect_outputs(std::move(recipe), arguments.output_dir);
   }
-  if (arguments.preview == "none") recipe.preview.reset();
+  if (!arguments.with_previews) recipe.preview.reset();
   if (!arguments.report.empty()) check_report(recipe, arguments.report);
 
   const BakeReport report = bake(recipe, options, cache_of(arguments.cache), terminal.observer());
@@ -136,9 +136,7 @@ Command add_bake(CLI::App& program) {
   parser->add_option("-o,--output-dir", arguments->output_dir,
                      "Write all files into this folder instead of where the recipe says");
   add_settings(*parser, arguments->settings);
-  parser->add_option("--preview", arguments->preview, "`none` leaves the recipe's previews out")
-      ->check(CLI::IsMember({"recipe", "none"}))
-      ->capture_default_str();
+  add_preview_choice(*parser, arguments->with_previews);
   parser->add_option("--report", arguments->report, "Write what was done as JSON");
   parser
       ->add_option("--threads", arguments->threads, "0: all cores; changes the time, never a byte")

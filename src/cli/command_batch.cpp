@@ -34,7 +34,6 @@ struct Arguments {
   std::filesystem::path manifest;
   std::filesystem::path table;
   std::string shard;
-  std::string preview = "recipe";
   CacheArguments cache;
   BatchOptions options;
   bool collect = false;
@@ -91,7 +90,6 @@ std::string summary_of(const BatchResult& result) {
 
 ExitCode run(Arguments& arguments, Terminal& terminal) {
   arguments.options.shard = shard_of(arguments.shard);
-  arguments.options.with_previews = arguments.preview != "none";
   arguments.options.cache = cache_of(arguments.cache);
   check(arguments);
   BatchObserver observer;
@@ -157,9 +155,7 @@ Command add_batch(CLI::App& program) {
   parser->add_flag("--collect", arguments->collect, "Bake nothing: join the reports of the shards");
   parser->add_flag("--html", options.write_page, "Write OUT/index.html: a page of all recipes");
   add_settings(*parser, options.settings);
-  parser->add_option("--preview", arguments->preview, "`none` leaves the recipes' previews out")
-      ->check(CLI::IsMember({"recipe", "none"}))
-      ->capture_default_str();
+  add_preview_choice(*parser, options.with_previews);
   add_cache_options(*parser, arguments->cache);
   parser->footer(kFooter);
   Command command{parser, {}, {}};

@@ -13,6 +13,7 @@ struct Arguments {
   std::filesystem::path recipe;
   std::vector<std::string> settings;
   CacheArguments cache;
+  bool with_previews = true;
   bool explain = false;
   bool json = false;
 };
@@ -28,7 +29,8 @@ std::string line_of(const PlannedStage& stage, bool explain) {
 }
 
 void run_plan(const Arguments& arguments, Terminal& terminal) {
-  const Recipe recipe = read_recipe(arguments.recipe);
+  Recipe recipe = read_recipe(arguments.recipe);
+  if (!arguments.with_previews) recipe.preview.reset();
   const BakeOptions options =
       read_options(recipe.options, location_in(recipe, "/options").file, arguments.settings);
   const StageCache cache = cache_of(arguments.cache);
@@ -52,6 +54,7 @@ Command add_plan(CLI::App& program) {
   parser->add_flag("--explain", arguments->explain, "Say why each stage runs: what changed");
   parser->add_flag("--json", arguments->json, "Print a JSON array instead");
   add_settings(*parser, arguments->settings);
+  add_preview_choice(*parser, arguments->with_previews);
   add_cache_options(*parser, arguments->cache);
   parser->footer(
       "\nSeconds are those that the stage took when it ran last.\n"

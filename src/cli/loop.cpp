@@ -41,6 +41,15 @@ void add_loop(CLI::App& parser, LoopArguments& loop) {
       ->capture_default_str();
 }
 
+void add_preview_choice(CLI::App& parser, bool& with_previews) {
+  parser
+      .add_option_function<std::string>(
+          "--preview", [&](const std::string& choice) { with_previews = choice != "none"; },
+          "`none` leaves the recipe's previews out")
+      ->check(CLI::IsMember({"recipe", "none"}))
+      ->default_str("recipe");
+}
+
 PreviewRequest request_of(const LoopArguments& loop) {
   PreviewRequest request;
   read_size(loop.size, request);

@@ -76,6 +76,7 @@ const reasonFor = (stages, name) => stages.find((stage) => stage.name === name).
 // Nothing is there, then all is; and how the recipe is written does not matter, nor where it lies.
 write(RECIPE);
 check(Object.values(statesOf(planned())).every((state) => state === 'runs'), 'plans to take what is not there');
+check(!planned('--preview', 'none').some(({ name }) => name.startsWith('preview') || name === 'maps'), 'plans pictures that nobody wants');
 check(!existsSync(CACHE), 'planning writes');
 checkBake('first', RECIPE, []);
 checkBake('again', RECIPE, ['solve', ...ALL_OUTPUTS]);
