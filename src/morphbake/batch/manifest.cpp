@@ -135,12 +135,13 @@ Manifest read_manifest(const fs::path& named, const fs::path& table) {
     EntryNames names;
     const Location at{named.string(), "", 0, 0};
     names.take(default_name(named.filename()), at, "call the file otherwise");
-    return {names.finish(at, kNameHint), [=](std::size_t) { return BatchEntry{"", named, {}, at}; }};
+    return {names.finish(at, kNameHint), [=](std::size_t) {
+              return BatchEntry{"", named, {}, at};
+            }};
   }
   if (!table.empty()) refuse(named, "a table is of one recipe", "name one recipe (.json)");
   if (named.extension() != ".jsonl") {
-    refuse(named, "this is neither a list (.jsonl) nor a recipe (.json)",
-           kListHint);
+    refuse(named, "this is neither a list (.jsonl) nor a recipe (.json)", kListHint);
   }
   return read_lines(named, {});
 }

@@ -139,8 +139,8 @@ Manifest read_csv_table(const fs::path& recipe, const fs::path& table) {
     if (names.take(name, at, "give the row another name")) places.push_back({offset, row.line});
   }
   Manifest manifest;
-  manifest.names = names.finish({table.string(), "", 0, 0},
-                                "write a row of values below that of JSON pointers");
+  manifest.names =
+      names.finish({table.string(), "", 0, 0}, "write a row of values below that of JSON pointers");
   manifest.read = [=, places = std::move(places)](std::size_t i) {
     stream->clear();
     stream->seekg(static_cast<std::streamoff>(places[i].offset));

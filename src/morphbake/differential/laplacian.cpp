@@ -35,22 +35,24 @@ Positions blend_edge_differences(const OneRings& rings, const std::vector<Positi
                                  const Eigen::MatrixXd& weights) {
   const Eigen::Index count = geometries.front().rows();
   const Eigen::Index stride = weights.cols() > count ? count : 0;
-  Positions b = Positions::Zero(count, 3);
-  for (std::size_t s = 0; s < geometries.size(); ++s) {
-    const Positions& V = geometries[s];
-    const Eigen::RowVectorXd T = weights.row(static_cast<Eigen::Index>(s));
-    if (T.isZero(0)) continue;
-    const auto shares_at = [&](int i) {
-      return Eigen::RowVector3d(T(i), T(i + stride), T(i + 2 * stride));
-    };
-    for (int i = 0; i < b.rows(); ++i) {
-      const auto v = static_cast<std::size_t>(i);
+  const auto shares_at = [&](std::size_t s, Eigen::Index i) {
+    const auto T = weights.row(static_cast<Eigen::Index>(s));
+    return Eigen::RowVector3d(T(i), T(i + stride), T(i + 2 * stride));
+  };
+  Positions b(count, 3);
+  for (Eigen::Index i = 0; i < count; ++i) {  // all sources while a vertex's neighbours are at hand
+    const auto v = static_cast<std::size_t>(i);
+    Eigen::RowVector3d sum = Eigen::RowVector3d::Zero();
+    for (std::size_t s = 0; s < geometries.size(); ++s) {
+      const Positions& V = geometries[s];
+      const Eigen::RowVector3d T_i = shares_at(s, i), V_i = V.row(i);
       for (int n = rings.offsets[v]; n < rings.offsets[v + 1]; ++n) {
         const int j = rings.neighbours[static_cast<std::size_t>(n)];
-        const Eigen::RowVector3d T_ij = (shares_at(i) + shares_at(j)) / 2;
-        b.row(i) += T_ij.cwiseProduct(V.row(i) - V.row(j));
+        const Eigen::RowVector3d T_ij = (T_i + shares_at(s, j)) / 2;
+        sum += T_ij.cwiseProduct(V_i - V.row(j));
       }
     }
+    b.row(i) = sum;
   }
   return b;
 }

@@ -2,8 +2,10 @@
 
 #include <cholmod.h>
 #include <fmt/core.h>
+#include <sys/mman.h>
 
 #include <algorithm>
+#include <cstdint>
 #include <cstring>
 #include <memory>
 #include <optional>
@@ -172,6 +174,32 @@ cholmod_factor* analysed(cholmod_sparse& matrix, Workspace& workspace,
   return cholmod_analyze_p(&matrix, given.data(), nullptr, 0, &workspace.common);
 }
 
+/// Gives memory back to the system as it is read for the last time: a factor and its packed form
+/// are not there at once. Whole blocks of pages; what is left is freed with the rest.
+class ReadOnce {
+ public:
+  explicit ReadOnce(double* values) : next_(first_whole_block(values)), values_(values) {}
+
+  void is_read(std::size_t count) {
+    char* end = reinterpret_cast<char*>(values_ + count);
+    const std::ptrdiff_t blocks = (end - next_) / kBlock;
+    if (blocks <= 0) return;
+    ::madvise(next_, static_cast<std::size_t>(blocks * kBlock), MADV_DONTNEED);
+    next_ += blocks * kBlock;
+  }
+
+ private:
+  static constexpr std::ptrdiff_t kBlock = 1 << 21;
+
+  static char* first_whole_block(double* values) {
+    const auto address = reinterpret_cast<std::uintptr_t>(values);
+    return reinterpret_cast<char*>(values) + (kBlock - address % kBlock) % kBlock;
+  }
+
+  char* next_;
+  double* values_;
+};
+
 template <class Scalar>
 PackedFactor<Scalar> packed(const cholmod_factor& factor, const std::vector<int>& free,
                             std::size_t row_count) {
@@ -182,10 +210,12 @@ PackedFactor<Scalar> packed(const cholmod_factor& factor, const std::vector<int>
   for (const int row : integers(factor.Perm, factor.n)) {
     order.push_back(free[static_cast<std::size_t>(row)]);
   }
+  auto* values = static_cast<double*>(factor.x);
+  ReadOnce memory(values);
   return PackedFactor<Scalar>(
       {integers(factor.super, factor.nsuper + 1), integers(factor.pi, factor.nsuper + 1),
-       integers(factor.px, factor.nsuper + 1), integers(factor.s, factor.ssize),
-       static_cast<const double*>(factor.x), order, row_count});
+       integers(factor.px, factor.nsuper + 1), integers(factor.s, factor.ssize), values, order,
+       row_count, [&memory](std::size_t count) { memory.is_read(count); }});
 }
 
 }  // namespace

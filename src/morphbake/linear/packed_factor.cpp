@@ -212,8 +212,12 @@ PackedFactor<Scalar>::PackedFactor(const SupernodalFactor& factor)
     supernodes_.push_back(node);
   }
   rows_.assign(kTile * tiles, static_cast<int>(factored_rows_));
-  values_.assign(values, Scalar(0));
-  for (std::size_t s = 0; s < count; ++s) pack(factor, s);
+  values_.reserve(values);  // memory that is not touched before it is filled
+  for (std::size_t s = 0; s < count; ++s) {
+    values_.resize(s + 1 < count ? supernodes_[s + 1].first_value : values, Scalar(0));
+    pack(factor, s);
+    factor.on_packed(static_cast<std::size_t>(factor.value_start[s + 1]));
+  }
 }
 
 template <class Scalar>

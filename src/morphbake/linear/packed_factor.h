@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <cstddef>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -21,6 +22,7 @@ struct SupernodalFactor {
   const double* values = nullptr;
   std::span<const int> order;  ///< row of A at each row of L; rows of A that are not there stay 0
   std::size_t row_count = 0;   ///< of A
+  std::function<void(std::size_t)> on_packed;  ///< the first so many values are not read again
 };
 
 /// A supernode in tiles of four rows: those of its triangle, then those below.

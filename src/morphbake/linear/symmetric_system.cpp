@@ -6,17 +6,18 @@ namespace {
 template <class Columns>
 void remove_means(const SymmetricSystem& system, Columns& columns) {
   if (system.singular_block_count == 0) return;
-  Eigen::MatrixXd sums = Eigen::MatrixXd::Zero(system.singular_block_count, columns.cols());
+  ColumnRows means = ColumnRows::Zero(system.singular_block_count, columns.cols());
   Eigen::VectorXd counts = Eigen::VectorXd::Zero(system.singular_block_count);
   for (Eigen::Index row = 0; row < columns.rows(); ++row) {
     const int block = system.singular_block[static_cast<std::size_t>(row)];
     if (block < 0) continue;
-    sums.row(block) += columns.row(row);
+    means.row(block) += columns.row(row);
     counts(block) += 1;
   }
+  for (Eigen::Index block = 0; block < means.rows(); ++block) means.row(block) /= counts(block);
   for (Eigen::Index row = 0; row < columns.rows(); ++row) {
     const int block = system.singular_block[static_cast<std::size_t>(row)];
-    if (block >= 0) columns.row(row) -= sums.row(block) / counts(block);
+    if (block >= 0) columns.row(row) -= means.row(block);
   }
 }
 

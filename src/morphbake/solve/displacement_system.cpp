@@ -23,20 +23,28 @@ void for_each_neighbour(const OneRings& rings, Eigen::Index i, const Visit& visi
   }
 }
 
-/// sum_s T_s V_s, vertex by vertex: what linear interpolation of positions would give.
-Positions blend_positions(const std::vector<Positions>& geometries, const Eigen::MatrixXd& shares) {
-  const Eigen::Index count = geometries.front().rows();
-  const bool is_per_axis = shares.cols() > count;
-  Positions blended = Positions::Zero(count, 3);
-  for (std::size_t s = 0; s < geometries.size(); ++s) {
-    for (Eigen::Index axis = 0; axis < 3; ++axis) {
-      const Eigen::ArrayXd share =
-          shares.row(static_cast<Eigen::Index>(s)).segment(is_per_axis ? axis * count : 0, count);
-      if (share.isZero(0)) continue;
-      blended.col(axis).array() += share * geometries[s].col(axis).array();
-    }
+/// Of some columns, that lie together: e_i -= sum_j (x_i - x_j).
+template <int kColumns>
+void subtract_differences(const OneRings& rings, Eigen::Index i, Eigen::Index column,
+                          const ColumnRows& x, ColumnRows& e) {
+  using Row = Eigen::Array<double, 1, kColumns>;
+  const auto row_of = [&](Eigen::Index v) { return Eigen::Map<const Row>(&x(v, column)); };
+  Eigen::Map<Row> to(&e(i, column));
+  const Row own = row_of(i);
+  Row sum = to;
+  for_each_neighbour(rings, i, [&](Eigen::Index j) { sum -= own - row_of(j); });
+  to = sum;
+}
+
+/// Of all columns, three a goal: as many at a time as registers hold.
+void subtract_differences(const OneRings& rings, Eigen::Index i, const ColumnRows& x,
+                          ColumnRows& e) {
+  constexpr int kTogether = 12;
+  Eigen::Index column = 0;
+  for (; column + kTogether <= x.cols(); column += kTogether) {
+    subtract_differences<kTogether>(rings, i, column, x, e);
   }
-  return blended;
+  for (; column < x.cols(); column += 3) subtract_differences<3>(rings, i, column, x, e);
 }
 
 /// Means of each component's vertices: #components by 3.
@@ -53,14 +61,18 @@ Positions component_centres(const Components& components, const Positions& posit
 
 std::vector<bool> uniform_components(const Components& components, const Eigen::MatrixXd& shares) {
   std::vector<bool> uniform(static_cast<std::size_t>(components.count), true);
+  int uniform_count = components.count;
   const auto count = static_cast<Eigen::Index>(components.label.size());
   for (Eigen::Index block = 0; block < shares.cols(); block += count) {  // one, or one an axis
     std::vector<Eigen::Index> first(static_cast<std::size_t>(components.count), -1);
-    for (Eigen::Index v = 0; v < count; ++v) {
+    for (Eigen::Index v = 0; v < count && uniform_count > 0; ++v) {
       const auto component =
           static_cast<std::size_t>(components.label[static_cast<std::size_t>(v)]);
       if (first[component] < 0) first[component] = v;
-      if (shares.col(block + v) != shares.col(block + first[component])) uniform[component] = false;
+      if (uniform[component] && shares.col(block + v) != shares.col(block + first[component])) {
+        uniform[component] = false;
+        --uniform_count;
+      }
     }
   }
   return uniform;
@@ -183,26 +195,41 @@ void DisplacementSystem::balance_axis(const Eigen::VectorXd& variation, Eigen::I
   }
 }
 
-Goal DisplacementSystem::goal(const Eigen::MatrixXd& change) const {
-  Goal goal;
-  goal.blend = blend_positions(mesh_.geometries, change);
-  goal.uniform = uniform_components(components_, change);
-  goal.imbalance = Positions::Zero(components_.count, 3);
-  require_finite(goal.blend, "blended",
-                 "the sources' coordinates are too large for double precision");
-  goal.start = goal.blend;
-  if (goal.is_blend()) return goal;
-  const Eigen::Index count = goal.start.rows(), stride = change.cols() > count ? count : 0;
+/// sum_s dT_s V_s, vertex by vertex: what linear interpolation of positions would give; and the
+/// same of sources about the centres of their components.
+void DisplacementSystem::blend(const Eigen::MatrixXd& change, Goal& goal) const {
+  const Eigen::Index count = mesh_.connectivity.vertex_count;
+  const Eigen::Index stride = change.cols() > count ? count : 0;
+  goal.blend.resize(count, 3);
+  goal.start.resize(count, 3);
   for (Eigen::Index v = 0; v < count; ++v) {
     const int component = components_.label[static_cast<std::size_t>(v)];
-    for (std::size_t s = 0; s < centres_.size(); ++s) {
-      for (Eigen::Index axis = 0; axis < 3; ++axis) {
-        goal.start(v, axis) -=
-            change(static_cast<Eigen::Index>(s), v + axis * stride) * centres_[s](component, axis);
+    for (Eigen::Index axis = 0; axis < 3; ++axis) {
+      const auto shares = change.col(v + axis * stride);
+      double blend = 0;
+      for (std::size_t s = 0; s < centres_.size(); ++s) {
+        blend += shares(static_cast<Eigen::Index>(s)) * mesh_.geometries[s](v, axis);
       }
+      double start = blend;
+      for (std::size_t s = 0; s < centres_.size(); ++s) {
+        start -= shares(static_cast<Eigen::Index>(s)) * centres_[s](component, axis);
+      }
+      goal.blend(v, axis) = blend;
+      goal.start(v, axis) = start;
     }
   }
-  if (rule_ == RightHandSide::Edge) {
+}
+
+Goal DisplacementSystem::goal(const Eigen::MatrixXd& change) const {
+  Goal goal;
+  goal.uniform = uniform_components(components_, change);
+  goal.imbalance = Positions::Zero(components_.count, 3);
+  blend(change, goal);
+  require_finite(goal.blend, "blended",
+                 "the sources' coordinates are too large for double precision");
+  if (goal.is_blend()) {
+    goal.start = goal.blend;
+  } else if (rule_ == RightHandSide::Edge) {
     goal.differences = blend_edge_differences(rings_, mesh_.geometries, change);
   } else {
     goal.differences = blend_vertex_differences(rings_, mesh_.geometries, change);
@@ -263,22 +290,55 @@ Eigen::MatrixXd DisplacementSystem::rest() const {
 }
 
 Eigen::MatrixXd DisplacementSystem::start(const Goal& goal) const {
+  if (!holds()) return goal.start;
   return goal.start(unknowns_.rows, Eigen::all);
 }
 
 Eigen::MatrixXd DisplacementSystem::right_hand_side(const Goal& goal) const {
   if (!holds()) return goal.differences;
-  return residual(goal, Eigen::MatrixXd::Zero(equations_.matrix.rows(), 3));
+  return held_residual(goal, Eigen::MatrixXd::Zero(equations_.matrix.rows(), 3));
 }
 
 Eigen::MatrixXd DisplacementSystem::residual(const Goal& goal, const Eigen::MatrixXd& x) const {
+  if (!holds()) return residuals({&goal}, x);
+  return held_residual(goal, x);
+}
+
+ColumnRows DisplacementSystem::residuals(const std::vector<const Goal*>& goals,
+                                         const ColumnRows& x) const {
+  ColumnRows residuals(x.rows(), x.cols());
+  const auto columns_of = [](std::size_t goal) { return 3 * static_cast<Eigen::Index>(goal); };
+  if (holds()) {
+    for (std::size_t g = 0; g < goals.size(); ++g) {
+      residuals.middleCols<3>(columns_of(g)) =
+          held_residual(*goals[g], x.middleCols<3>(columns_of(g)));
+    }
+    return residuals;
+  }
+  // Vertices are unknowns here. Some at a time: the goals' columns lie far apart.
+  constexpr Eigen::Index kVertices = 64;
+  for (Eigen::Index first = 0; first < x.rows(); first += kVertices) {
+    const Eigen::Index count = std::min(kVertices, x.rows() - first);
+    for (std::size_t g = 0; g < goals.size(); ++g) {
+      residuals.block(first, columns_of(g), count, 3) =
+          goals[g]->differences.middleRows(first, count);
+    }
+    for (Eigen::Index i = first; i < first + count; ++i) {
+      subtract_differences(rings_, i, x, residuals);
+    }
+  }
+  return residuals;
+}
+
+Eigen::MatrixXd DisplacementSystem::held_residual(const Goal& goal,
+                                                  const Eigen::MatrixXd& x) const {
   Positions u = goal.blend;  // held vertices stay there
   for (std::size_t k = 0; k < unknowns_.rows.size(); ++k) {
     u.row(unknowns_.rows[k]) = x.row(static_cast<Eigen::Index>(k));
   }
   // e = b - K_L u. Extended precision where L^T is still to be applied to it.
   Eigen::Matrix<long double, Eigen::Dynamic, 3, Eigen::RowMajor> misfit;
-  if (holds()) misfit.setZero(u.rows(), 3);
+  misfit.setZero(u.rows(), 3);
   Eigen::MatrixXd residual(x.rows(), 3);
   for (Eigen::Index i = 0; i < u.rows(); ++i) {
     const auto vertex = static_cast<std::size_t>(i);
@@ -294,7 +354,6 @@ Eigen::MatrixXd DisplacementSystem::residual(const Goal& goal, const Eigen::Matr
       residual.row(unknowns_.of_row[vertex]) = e;
     }
   }
-  if (!holds()) return residual;
   for (std::size_t k = 0; k < unknowns_.rows.size(); ++k) {
     const Eigen::Index i = unknowns_.rows[k];
     const auto component = static_cast<std::size_t>(components_.label[static_cast<std::size_t>(i)]);

@@ -83,6 +83,12 @@ class DisplacementSystem {
   /// @return   as x
   Eigen::MatrixXd residual(const Goal& goal, const Eigen::MatrixXd& x) const;
 
+  /// The residuals of several goals, which walk over the surface together.
+  ///
+  /// @param x  unknowns by 3 a goal, beside each other
+  /// @return   as x
+  ColumnRows residuals(const std::vector<const Goal*>& goals, const ColumnRows& x) const;
+
   /// The first source's surface at the unknowns, about the centre of its bounding box.
   Eigen::MatrixXd rest() const;
 
@@ -98,6 +104,8 @@ class DisplacementSystem {
   void assemble();
   void balance(const Eigen::MatrixXd& change, Goal& goal) const;
   void balance_axis(const Eigen::VectorXd& variation, Eigen::Index axis, Goal& goal) const;
+  void blend(const Eigen::MatrixXd& change, Goal& goal) const;
+  Eigen::MatrixXd held_residual(const Goal& goal, const Eigen::MatrixXd& x) const;
 
   const MorphableMesh& mesh_;
   OneRings rings_;

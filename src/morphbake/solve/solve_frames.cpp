@@ -142,12 +142,15 @@ std::vector<SolveRecord> solve_frames(const SurfaceSolver& solver, const std::ve
       }
     });
     solve_chunk(solver, chunk, before);
-    for (std::size_t i = 0; i < chunk.x.size(); ++i) {
-      consumer(static_cast<int>(first + i), system.displacement(chunk.goals[i], chunk.x[i]));
+    before = last_two_deviations(solver, chunk);
+    tbb::parallel_for(std::size_t{0}, frames, [&](std::size_t i) {
+      chunk.x[i] = system.displacement(chunk.goals[i], chunk.x[i]);
+    });
+    for (std::size_t i = 0; i < frames; ++i) {
+      consumer(static_cast<int>(first + i), chunk.x[i]);
       if (chunk.goals[i].is_blend()) continue;
       records.push_back({"", times[first + i], chunk.reached[i]});
     }
-    before = last_two_deviations(solver, chunk);
   }
   return records;
 }

@@ -31,17 +31,67 @@ double largest_row(const Eigen::MatrixXd& rows) {
   return rows.rows() == 0 ? 0 : std::sqrt(rows.rowwise().squaredNorm().maxCoeff());
 }
 
-/// Adds three of the columns, row by row.
-///
-/// @return  the longest row that was added
-double add_columns(const ColumnRows& columns, Eigen::Index first, Eigen::MatrixXd& x) {
-  double longest = 0;
-  for (Eigen::Index row = 0; row < x.rows(); ++row) {
-    const Eigen::RowVector3d added = columns.block<1, 3>(row, first);
-    x.row(row) += added;
-    longest = std::max(longest, added.squaredNorm());
+/// What the goals that are not done with have reached, beside each other.
+struct OpenGoals {
+  std::vector<std::size_t> which;
+  ColumnRows x;  ///< unknowns by 3 a goal
+
+  /// Takes the starts out of where they are.
+  explicit OpenGoals(std::vector<Eigen::MatrixXd>& starts) : which(starts.size()) {
+    std::iota(which.begin(), which.end(), std::size_t{0});
+    x.resize(starts.empty() ? 0 : starts[0].rows(), 3 * static_cast<Eigen::Index>(starts.size()));
+    for (std::size_t i = 0; i < starts.size(); ++i) {
+      x.middleCols<3>(column_of(i)) = starts[i];
+      starts[i].resize(0, 3);
+    }
   }
-  return std::sqrt(longest);
+
+  static Eigen::Index column_of(std::size_t place) { return 3 * static_cast<Eigen::Index>(place); }
+
+  /// Keeps those at some places, and their columns of `beside`.
+  void keep(const std::vector<std::size_t>& places, ColumnRows& beside) {
+    if (places.size() == which.size()) return;
+    std::vector<Eigen::Index> columns;
+    std::vector<std::size_t> kept;
+    for (const std::size_t place : places) {
+      kept.push_back(which[place]);
+      for (Eigen::Index c = 0; c < 3; ++c) columns.push_back(column_of(place) + c);
+    }
+    which = std::move(kept);
+    x = ColumnRows(x(Eigen::all, columns));
+    beside = ColumnRows(beside(Eigen::all, columns));
+  }
+};
+
+std::vector<const Goal*> goals_at(const std::vector<Goal>& goals,
+                                  const std::vector<std::size_t>& places) {
+  std::vector<const Goal*> chosen;
+  for (const std::size_t place : places) chosen.push_back(&goals[place]);
+  return chosen;
+}
+
+/// One a goal, whose three columns lie beside the others'.
+Eigen::ArrayXd norms_of_goals(const ColumnRows& columns) {
+  Eigen::ArrayXXd squares = Eigen::ArrayXXd::Zero(1, columns.cols());
+  for (Eigen::Index row = 0; row < columns.rows(); ++row) {
+    squares += columns.row(row).array().square();
+  }
+  return squares.reshaped(3, columns.cols() / 3).colwise().sum().sqrt().transpose();
+}
+
+/// Adds the columns of all goals.
+///
+/// @return  one a goal: the longest row that was added
+Eigen::ArrayXd add_columns(const ColumnRows& columns, ColumnRows& x) {
+  Eigen::ArrayXd longest = Eigen::ArrayXd::Zero(columns.cols() / 3);
+  for (Eigen::Index row = 0; row < x.rows(); ++row) {
+    x.row(row) += columns.row(row);
+    for (Eigen::Index goal = 0; goal < longest.size(); ++goal) {
+      const double length = columns.block<1, 3>(row, 3 * goal).squaredNorm();
+      longest(goal) = std::max(longest(goal), length);
+    }
+  }
+  return longest.sqrt();
 }
 
 double expected_factor_bytes(const DisplacementSystem& system) {
@@ -169,32 +219,37 @@ std::vector<Convergence> SurfaceSolver::solve_by_factor(const std::vector<Goal>&
                                                         std::vector<Eigen::MatrixXd>& x) const {
   const CholeskyFactor& factor = *std::get<Factor>(method_);
   const double tolerance = options_.tolerance * system_.diagonal();
-  const Eigen::Index rows = system_.equations().matrix.rows();
   std::vector<Convergence> reached(goals.size());
-  std::vector<std::size_t> open(rows > 0 ? goals.size() : 0);  // each ends by itself
-  std::iota(open.begin(), open.end(), std::size_t{0});
-  for (int pass = 1; pass <= kCorrectionLimit && !open.empty(); ++pass) {
-    ColumnRows corrections(rows, 3 * static_cast<Eigen::Index>(open.size()));
-    for (std::size_t k = 0; k < open.size(); ++k) {
-      corrections.middleCols(3 * static_cast<Eigen::Index>(k), 3) =
-          system_.residual(goals[open[k]], x[open[k]]);
+  for (Convergence& own : reached) own.reached = system_.equations().matrix.rows() == 0;
+  OpenGoals open(x);  // each ends by itself
+  for (int pass = 0; !open.which.empty(); ++pass) {
+    ColumnRows corrections = system_.residuals(goals_at(goals, open.which), open.x);
+    const Eigen::ArrayXd residuals = norms_of_goals(corrections);
+    std::vector<std::size_t> left;
+    for (std::size_t k = 0; k < open.which.size(); ++k) {
+      Convergence& own = reached[open.which[k]];
+      own.residual = residuals(static_cast<Eigen::Index>(k));
+      if (!own.reached && pass < kCorrectionLimit) {
+        left.push_back(k);
+      } else {
+        x[open.which[k]] = open.x.middleCols<3>(OpenGoals::column_of(k));
+      }
     }
+    open.keep(left, corrections);
+    if (left.empty()) break;
     factor.solve_in_place(corrections);
     remove_block_means(system_.equations(), corrections);
-    for (std::size_t k = 0; k < open.size(); ++k) {
-      Convergence& own = reached[open[k]];
-      own.iterations = pass;
-      own.error =
-          contraction_ * add_columns(corrections, 3 * static_cast<Eigen::Index>(k), x[open[k]]);
+    const Eigen::ArrayXd added = add_columns(corrections, open.x);
+    for (std::size_t k = 0; k < left.size(); ++k) {
+      Convergence& own = reached[open.which[k]];
+      own.iterations = pass + 1;
+      own.error = contraction_ * added(static_cast<Eigen::Index>(k));
       own.reached = own.error <= tolerance;
     }
-    std::erase_if(open, [&](std::size_t i) { return reached[i].reached; });
   }
   for (std::size_t i = 0; i < goals.size(); ++i) {
     const double scale = system_.right_hand_side(goals[i]).norm();
-    const double residual = system_.residual(goals[i], x[i]).norm();
-    reached[i].residual = scale > 0 ? residual / scale : residual;
-    reached[i].reached = reached[i].reached || rows == 0;
+    if (scale > 0) reached[i].residual /= scale;
   }
   return reached;
 }
