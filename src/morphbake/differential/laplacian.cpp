@@ -1,6 +1,18 @@
 #include "morphbake/differential/laplacian.h"
 
+#include <span>
+
 namespace morphbake {
+namespace {
+
+std::span<const int> neighbours_of(const OneRings& rings, Eigen::Index i) {
+  const auto v = static_cast<std::size_t>(i);
+  const std::span<const int> all = rings.neighbours;
+  return all.subspan(static_cast<std::size_t>(rings.offsets[v]),
+                     static_cast<std::size_t>(rings.degree(static_cast<int>(i))));
+}
+
+}  // namespace
 
 Positions differential_coordinates(const OneRings& rings, const Positions& positions) {
   Positions W(positions.rows(), 3);
@@ -34,22 +46,25 @@ Eigen::SparseMatrix<double> symmetric_laplacian(const OneRings& rings) {
 Positions blend_edge_differences(const OneRings& rings, const std::vector<Positions>& geometries,
                                  const Eigen::MatrixXd& weights) {
   const Eigen::Index count = geometries.front().rows();
-  const Eigen::Index stride = weights.cols() > count ? count : 0;
-  const auto shares_at = [&](std::size_t s, Eigen::Index i) {
-    const auto T = weights.row(static_cast<Eigen::Index>(s));
-    return Eigen::RowVector3d(T(i), T(i + stride), T(i + 2 * stride));
-  };
+  const bool is_per_axis = weights.cols() > count;
   Positions b(count, 3);
   for (Eigen::Index i = 0; i < count; ++i) {  // all sources while a vertex's neighbours are at hand
-    const auto v = static_cast<std::size_t>(i);
+    const std::span<const int> neighbours = neighbours_of(rings, i);
     Eigen::RowVector3d sum = Eigen::RowVector3d::Zero();
-    for (std::size_t s = 0; s < geometries.size(); ++s) {
-      const Positions& V = geometries[s];
-      const Eigen::RowVector3d T_i = shares_at(s, i), V_i = V.row(i);
-      for (int n = rings.offsets[v]; n < rings.offsets[v + 1]; ++n) {
-        const int j = rings.neighbours[static_cast<std::size_t>(n)];
-        const Eigen::RowVector3d T_ij = (T_i + shares_at(s, j)) / 2;
-        sum += T_ij.cwiseProduct(V_i - V.row(j));
+    for (Eigen::Index s = 0; s < weights.rows(); ++s) {
+      const Positions& V = geometries[static_cast<std::size_t>(s)];
+      const Eigen::RowVector3d V_i = V.row(i);
+      for (const int j : neighbours) {
+        const Eigen::RowVector3d edge = V_i - V.row(j);
+        if (is_per_axis) {
+          const auto shares = [&](Eigen::Index v) {
+            return Eigen::RowVector3d(weights(s, v), weights(s, v + count),
+                                      weights(s, v + 2 * count));
+          };
+          sum += ((shares(i) + shares(j)) / 2).cwiseProduct(edge);
+        } else {
+          sum += (weights(s, i) + weights(s, j)) / 2 * edge;
+        }
       }
     }
     b.row(i) = sum;

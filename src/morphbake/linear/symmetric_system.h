@@ -17,8 +17,10 @@ struct SymmetricSystem {
   int singular_block_count = 0;
 };
 
-/// Takes the mean of each column over each singular block away: what is left is in the matrix's
-/// range.
+/// The mean of each column over each singular block: #blocks by #columns.
+ColumnRows block_means(const SymmetricSystem& system, const ColumnRows& columns);
+
+/// Takes these means away: what is left is in the matrix's range.
 void remove_block_means(const SymmetricSystem& system, Eigen::MatrixXd& columns);
 void remove_block_means(const SymmetricSystem& system, ColumnRows& columns);
 

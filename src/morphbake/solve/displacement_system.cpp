@@ -320,7 +320,7 @@ ColumnRows DisplacementSystem::residuals(const std::vector<const Goal*>& goals,
   for (Eigen::Index first = 0; first < x.rows(); first += kVertices) {
     const Eigen::Index count = std::min(kVertices, x.rows() - first);
     for (std::size_t g = 0; g < goals.size(); ++g) {
-      residuals.block(first, columns_of(g), count, 3) =
+      residuals.middleCols<3>(columns_of(g)).middleRows(first, count) =
           goals[g]->differences.middleRows(first, count);
     }
     for (Eigen::Index i = first; i < first + count; ++i) {

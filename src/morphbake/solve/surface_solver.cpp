@@ -40,13 +40,27 @@ struct OpenGoals {
   explicit OpenGoals(std::vector<Eigen::MatrixXd>& starts) : which(starts.size()) {
     std::iota(which.begin(), which.end(), std::size_t{0});
     x.resize(starts.empty() ? 0 : starts[0].rows(), 3 * static_cast<Eigen::Index>(starts.size()));
-    for (std::size_t i = 0; i < starts.size(); ++i) {
-      x.middleCols<3>(column_of(i)) = starts[i];
-      starts[i].resize(0, 3);
-    }
+    for_each_row_block([&](Eigen::Index first, Eigen::Index count) {
+      for (std::size_t i = 0; i < starts.size(); ++i) {
+        x.middleCols<3>(column_of(i)).middleRows(first, count) = starts[i].middleRows(first, count);
+      }
+    });
+    for (Eigen::MatrixXd& start : starts) start.resize(0, 3);
   }
 
   static Eigen::Index column_of(std::size_t place) { return 3 * static_cast<Eigen::Index>(place); }
+
+  /// Puts the columns of those at some places where they belong.
+  void put_back(const std::vector<std::size_t>& places,
+                std::vector<Eigen::MatrixXd>& solved) const {
+    for (const std::size_t place : places) solved[which[place]].resize(x.rows(), 3);
+    for_each_row_block([&](Eigen::Index first, Eigen::Index count) {
+      for (const std::size_t place : places) {
+        solved[which[place]].middleRows(first, count) =
+            x.middleCols<3>(column_of(place)).middleRows(first, count);
+      }
+    });
+  }
 
   /// Keeps those at some places, and their columns of `beside`.
   void keep(const std::vector<std::size_t>& places, ColumnRows& beside) {
@@ -61,6 +75,16 @@ struct OpenGoals {
     x = ColumnRows(x(Eigen::all, columns));
     beside = ColumnRows(beside(Eigen::all, columns));
   }
+
+ private:
+  /// Matrices that lie apart are read and written some rows at a time: all of a block is at hand.
+  template <typename Visit>
+  void for_each_row_block(const Visit& visit) const {
+    constexpr Eigen::Index kRows = 64;
+    for (Eigen::Index first = 0; first < x.rows(); first += kRows) {
+      visit(first, std::min(kRows, x.rows() - first));
+    }
+  }
 };
 
 std::vector<const Goal*> goals_at(const std::vector<Goal>& goals,
@@ -72,23 +96,28 @@ std::vector<const Goal*> goals_at(const std::vector<Goal>& goals,
 
 /// One a goal, whose three columns lie beside the others'.
 Eigen::ArrayXd norms_of_goals(const ColumnRows& columns) {
-  Eigen::ArrayXXd squares = Eigen::ArrayXXd::Zero(1, columns.cols());
+  Eigen::RowVectorXd squares = Eigen::RowVectorXd::Zero(columns.cols());
   for (Eigen::Index row = 0; row < columns.rows(); ++row) {
-    squares += columns.row(row).array().square();
+    squares += columns.row(row).cwiseAbs2();
   }
-  return squares.reshaped(3, columns.cols() / 3).colwise().sum().sqrt().transpose();
+  return squares.reshaped(3, columns.cols() / 3).colwise().sum().cwiseSqrt().transpose();
 }
 
-/// Adds the columns of all goals.
+/// Adds corrections of all goals, less what the system does not see of them.
 ///
 /// @return  one a goal: the longest row that was added
-Eigen::ArrayXd add_columns(const ColumnRows& columns, ColumnRows& x) {
-  Eigen::ArrayXd longest = Eigen::ArrayXd::Zero(columns.cols() / 3);
+Eigen::ArrayXd correct(const SymmetricSystem& system, const ColumnRows& corrections,
+                       ColumnRows& x) {
+  const ColumnRows means = block_means(system, corrections);
+  Eigen::RowVectorXd added(x.cols());
+  Eigen::ArrayXd longest = Eigen::ArrayXd::Zero(x.cols() / 3);
   for (Eigen::Index row = 0; row < x.rows(); ++row) {
-    x.row(row) += columns.row(row);
+    const int block = system.singular_block[static_cast<std::size_t>(row)];
+    added = corrections.row(row);
+    if (block >= 0) added -= means.row(block);
+    x.row(row) += added;
     for (Eigen::Index goal = 0; goal < longest.size(); ++goal) {
-      const double length = columns.block<1, 3>(row, 3 * goal).squaredNorm();
-      longest(goal) = std::max(longest(goal), length);
+      longest(goal) = std::max(longest(goal), added.segment<3>(3 * goal).squaredNorm());
     }
   }
   return longest.sqrt();
@@ -225,21 +254,17 @@ std::vector<Convergence> SurfaceSolver::solve_by_factor(const std::vector<Goal>&
   for (int pass = 0; !open.which.empty(); ++pass) {
     ColumnRows corrections = system_.residuals(goals_at(goals, open.which), open.x);
     const Eigen::ArrayXd residuals = norms_of_goals(corrections);
-    std::vector<std::size_t> left;
+    std::vector<std::size_t> done, left;
     for (std::size_t k = 0; k < open.which.size(); ++k) {
       Convergence& own = reached[open.which[k]];
       own.residual = residuals(static_cast<Eigen::Index>(k));
-      if (!own.reached && pass < kCorrectionLimit) {
-        left.push_back(k);
-      } else {
-        x[open.which[k]] = open.x.middleCols<3>(OpenGoals::column_of(k));
-      }
+      (own.reached || pass == kCorrectionLimit ? done : left).push_back(k);
     }
+    open.put_back(done, x);
     open.keep(left, corrections);
     if (left.empty()) break;
     factor.solve_in_place(corrections);
-    remove_block_means(system_.equations(), corrections);
-    const Eigen::ArrayXd added = add_columns(corrections, open.x);
+    const Eigen::ArrayXd added = correct(system_.equations(), corrections, open.x);
     for (std::size_t k = 0; k < left.size(); ++k) {
       Convergence& own = reached[open.which[k]];
       own.iterations = pass + 1;
