@@ -106,6 +106,38 @@ TEST_P(FrameSolvers, GiveTheSameBytesOnAnyNumberOfThreads) {
   EXPECT_EQ(with_threads(1), with_threads(4));
 }
 
+TEST_P(FrameSolvers, DoNotSeeFramesThatAreDoneWithBefore) {
+  const Sweep sweep;
+  const DisplacementSystem system = sweep.system();
+  SolveOptions options;
+  options.solver = GetParam();
+  options.tolerance = 1e-8;
+  const Observer nobody;
+  const SurfaceSolver solver(system, options, nobody);
+  std::vector<Goal> goals = goals_of(sweep, system)(std::vector<double>{0.4, 0.5, 0.6});
+  std::vector<Eigen::MatrixXd> together;
+  for (const Goal& goal : goals) together.push_back(system.start(goal));
+  std::vector<Eigen::MatrixXd> near = {together[1]};
+  solver.solve({goals[1]}, near);
+  together[1] = near[0];  // needs fewer corrections than its neighbours
+  std::vector<Eigen::MatrixXd> alone = together;
+  const std::vector<Convergence> reached = solver.solve(goals, together);
+  for (std::size_t i = 0; i < goals.size(); ++i) {
+    std::vector<Eigen::MatrixXd> x = {alone[i]};
+    const Convergence own = solver.solve({goals[i]}, x)[0];
+    EXPECT_EQ(together[i], x[0]) << i;
+    EXPECT_EQ(reached[i].iterations, own.iterations) << i;
+    EXPECT_EQ(reached[i].residual, own.residual) << i;
+    const Eigen::MatrixXd residual = system.residual(goals[i], x[0]);
+    EXPECT_NEAR(own.residual * system.right_hand_side(goals[i]).norm(), residual.norm(),
+                1e-12 * system.diagonal())
+        << i;
+  }
+  if (GetParam() == Solver::Warm) {
+    EXPECT_LT(reached[1].iterations, reached[0].iterations);
+  }
+}
+
 std::string name_of_parameter(const testing::TestParamInfo<Solver>& info) {
   std::string name = name_of(info.param);
   std::erase(name, '-');
