@@ -144,6 +144,7 @@ std::vector<SolveRecord> solve_frames(const SurfaceSolver& solver, const std::ve
     solve_chunk(solver, chunk, before);
     before = last_two_deviations(solver, chunk);
     tbb::parallel_for(std::size_t{0}, frames, [&](std::size_t i) {
+      chunk.goals[i].differences.resize(0, 3);
       chunk.x[i] = system.displacement(chunk.goals[i], chunk.x[i]);
     });
     for (std::size_t i = 0; i < frames; ++i) {

@@ -50,30 +50,26 @@ struct OpenGoals {
 
   static Eigen::Index column_of(std::size_t place) { return 3 * static_cast<Eigen::Index>(place); }
 
-  /// Puts the columns of those at some places where they belong.
-  void put_back(const std::vector<std::size_t>& places,
-                std::vector<Eigen::MatrixXd>& solved) const {
-    for (const std::size_t place : places) solved[which[place]].resize(x.rows(), 3);
+  /// Keeps those at some places, and their columns of `beside`; puts the others where they belong.
+  void keep(const std::vector<std::size_t>& left, const std::vector<std::size_t>& done,
+            std::vector<Eigen::MatrixXd>& solved, ColumnRows& beside) {
+    if (done.empty()) return;
+    std::vector<Eigen::Index> columns;
+    std::vector<std::size_t> kept;
+    for (const std::size_t place : left) {
+      kept.push_back(which[place]);
+      for (Eigen::Index c = 0; c < 3; ++c) columns.push_back(column_of(place) + c);
+    }
+    beside = ColumnRows(beside(Eigen::all, columns));  // first, since the largest sizes meet here
+    for (const std::size_t place : done) solved[which[place]].resize(x.rows(), 3);
     for_each_row_block([&](Eigen::Index first, Eigen::Index count) {
-      for (const std::size_t place : places) {
+      for (const std::size_t place : done) {
         solved[which[place]].middleRows(first, count) =
             x.middleCols<3>(column_of(place)).middleRows(first, count);
       }
     });
-  }
-
-  /// Keeps those at some places, and their columns of `beside`.
-  void keep(const std::vector<std::size_t>& places, ColumnRows& beside) {
-    if (places.size() == which.size()) return;
-    std::vector<Eigen::Index> columns;
-    std::vector<std::size_t> kept;
-    for (const std::size_t place : places) {
-      kept.push_back(which[place]);
-      for (Eigen::Index c = 0; c < 3; ++c) columns.push_back(column_of(place) + c);
-    }
     which = std::move(kept);
     x = ColumnRows(x(Eigen::all, columns));
-    beside = ColumnRows(beside(Eigen::all, columns));
   }
 
  private:
@@ -260,8 +256,7 @@ std::vector<Convergence> SurfaceSolver::solve_by_factor(const std::vector<Goal>&
       own.residual = residuals(static_cast<Eigen::Index>(k));
       (own.reached || pass == kCorrectionLimit ? done : left).push_back(k);
     }
-    open.put_back(done, x);
-    open.keep(left, corrections);
+    open.keep(left, done, x, corrections);
     if (left.empty()) break;
     factor.solve_in_place(corrections);
     const Eigen::ArrayXd added = correct(system_.equations(), corrections, open.x);
