@@ -24,6 +24,7 @@ set(OWNERS
     "^draco/=gltf"
     "^CLI/=cli"
     "^xxhash\\.h$=cache"
+    "^sys/mman\\.h$=linear"
     "^(fcntl|fnmatch|link|poll|unistd|signal|sys/.*)(\\.h)?$=files cache batch cli")
 
 set(breaches "")
