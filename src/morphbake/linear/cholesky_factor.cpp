@@ -200,8 +200,9 @@ class ReadOnce {
   double* values_;
 };
 
+/// The factor's values are gone afterwards.
 template <class Scalar>
-PackedFactor<Scalar> packed(const cholmod_factor& factor, const std::vector<int>& free,
+PackedFactor<Scalar> packed(cholmod_factor& factor, const std::vector<int>& free,
                             std::size_t row_count) {
   const auto integers = [](const void* first, std::size_t count) {
     return std::span<const int>(static_cast<const int*>(first), count);

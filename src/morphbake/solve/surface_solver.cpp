@@ -83,8 +83,8 @@ struct OpenGoals {
   }
 };
 
-std::vector<const Goal*> goals_at(const std::vector<Goal>& goals,
-                                  const std::vector<std::size_t>& places) {
+std::vector<const Goal*> chosen_goals(const std::vector<Goal>& goals,
+                                      const std::vector<std::size_t>& places) {
   std::vector<const Goal*> chosen;
   for (const std::size_t place : places) chosen.push_back(&goals[place]);
   return chosen;
@@ -248,7 +248,7 @@ std::vector<Convergence> SurfaceSolver::solve_by_factor(const std::vector<Goal>&
   for (Convergence& own : reached) own.reached = system_.equations().matrix.rows() == 0;
   OpenGoals open(x);  // each ends by itself
   for (int pass = 0; !open.which.empty(); ++pass) {
-    ColumnRows corrections = system_.residuals(goals_at(goals, open.which), open.x);
+    ColumnRows corrections = system_.residuals(chosen_goals(goals, open.which), open.x);
     const Eigen::ArrayXd residuals = norms_of_goals(corrections);
     std::vector<std::size_t> done, left;
     for (std::size_t k = 0; k < open.which.size(); ++k) {
