@@ -6,9 +6,12 @@
 #include <link.h>
 #include <xxhash.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <fstream>
+#include <limits>
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "morphbake/diagnostics/problem.h"
@@ -23,8 +26,18 @@ class Hasher {
  public:
   Hasher() { XXH3_128bits_reset(state_.get()); }
 
-  void add(const void* bytes, std::size_t count) {
-    XXH3_128bits_update(state_.get(), bytes, count);
+  /// What is left of a stream, or its next `most` bytes.
+  /// @return  whether all could be read
+  bool add(std::istream& stream, std::size_t most = std::numeric_limits<std::size_t>::max()) {
+    constexpr std::size_t kPiece = std::size_t{1} << 20;
+    std::vector<char> piece(std::min(most, kPiece));
+    while (most > 0 && stream) {
+      stream.read(piece.data(), static_cast<std::streamsize>(std::min(most, piece.size())));
+      const auto count = static_cast<std::size_t>(stream.gcount());
+      XXH3_128bits_update(state_.get(), piece.data(), count);
+      most -= count;
+    }
+    return most == 0 || stream.eof();
   }
 
   std::string digits() const { return digits_of(XXH3_128bits_digest(state_.get())); }
@@ -50,9 +63,12 @@ bool is_constant(const ElfW(Phdr) & part) {
   return part.p_type == PT_LOAD && (part.p_flags & PF_W) == 0;
 }
 
-/// Hashes the constant parts of the loaded object that holds this function, then stops.
-int hash_own_object(dl_phdr_info* object, std::size_t, void* hasher) {
-  const auto own = reinterpret_cast<ElfW(Addr)>(&hash_own_object);
+/// Constant parts of a loaded object: where they begin, and how many bytes they have.
+using ConstantParts = std::vector<std::pair<ElfW(Addr), std::size_t>>;
+
+/// Finds those of the object that holds this function, then stops.
+int find_own_parts(dl_phdr_info* object, std::size_t, void* found) {
+  const auto own = reinterpret_cast<ElfW(Addr)>(&find_own_parts);
   bool is_own = false;
   for (int i = 0; i < object->dlpi_phnum; ++i) {
     const ElfW(Phdr)& part = object->dlpi_phdr[i];
@@ -63,9 +79,8 @@ int hash_own_object(dl_phdr_info* object, std::size_t, void* hasher) {
   for (int i = 0; i < object->dlpi_phnum; ++i) {
     const ElfW(Phdr)& part = object->dlpi_phdr[i];
     if (!is_constant(part)) continue;
-    // NOLINTNEXTLINE(performance-no-int-to-ptr): the loader gives addresses as numbers
-    const void* begin = reinterpret_cast<const void*>(object->dlpi_addr + part.p_vaddr);
-    static_cast<Hasher*>(hasher)->add(begin, part.p_filesz);
+    static_cast<ConstantParts*>(found)->push_back(
+        {object->dlpi_addr + part.p_vaddr, part.p_filesz});
   }
   return 1;
 }
@@ -83,15 +98,9 @@ std::string file_hash(const fs::path& file) {
   if (!fs::is_regular_file(status)) {
     fail("files.not-a-file", file, "this is not a regular file");
   }
-  constexpr std::size_t kPiece = std::size_t{1} << 20;
   std::ifstream stream(file, std::ios::binary);
-  std::vector<char> piece(kPiece);
   Hasher hasher;
-  while (stream) {
-    stream.read(piece.data(), static_cast<std::streamsize>(piece.size()));
-    hasher.add(piece.data(), static_cast<std::size_t>(stream.gcount()));
-  }
-  if (!stream.eof()) fail("files.unreadable", file, "cannot read the file");
+  if (!hasher.add(stream)) fail("files.unreadable", file, "cannot read the file");
   return hasher.digits();
 }
 
@@ -103,8 +112,17 @@ const std::string& FileHashes::of(const fs::path& file) {
 
 const std::string& program_hash() {
   static const std::string hash = [] {
+    ConstantParts own;
+    dl_iterate_phdr(find_own_parts, &own);
+    // As a file: sanitizers let no program read between its own variables.
+    std::ifstream memory("/proc/self/mem", std::ios::binary);
     Hasher hasher;
-    dl_iterate_phdr(hash_own_object, &hasher);
+    for (const auto& [begin, count] : own) {
+      memory.seekg(static_cast<std::streamoff>(begin));
+      if (!hasher.add(memory, count)) {
+        fail("files.unreadable", "/proc/self/mem", "cannot read the program's own code");
+      }
+    }
     return hasher.digits();
   }();
   return hash;
