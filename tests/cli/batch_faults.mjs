@@ -67,7 +67,7 @@ batch(3, 'nested.jsonl', '-o', 'nested');
 check(linesOf('nested/report.jsonl').filter(({ state }) => state === 'done').every(({ outputs }) => outputs.every(({ file }) => existsSync(path.join('nested', file)))), 'what is done is not there');
 
 // A crash, and a kill from outside.
-for (const [signal, text] of [['SIGSEGV', 'signal 11'], ['SIGKILL', 'run fewer at once']]) {
+for (const [signal, text] of [['SIGUSR1', 'signal 10'], ['SIGKILL', 'run fewer at once']]) {
   const going = start('mixed.jsonl', '-o', `crash${signal}`);
   await until(() => existsSync(`crash${signal}/report.jsonl`) && linesOf(`crash${signal}/report.jsonl`).length === 2 && childrenOf(going.pid).length === 1);
   process.kill(childrenOf(going.pid)[0], signal);
