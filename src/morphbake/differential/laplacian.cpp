@@ -47,6 +47,14 @@ Positions blend_edge_differences(const OneRings& rings, const std::vector<Positi
                                  const Eigen::MatrixXd& weights) {
   const Eigen::Index count = geometries.front().rows();
   const bool is_per_axis = weights.cols() > count;
+  const auto mean_shares = [&](Eigen::Index s, Eigen::Index i,
+                               Eigen::Index j) -> Eigen::RowVector3d {
+    const auto mean = [&](Eigen::Index first) {
+      return (weights(s, first + i) + weights(s, first + j)) / 2;
+    };
+    if (is_per_axis) return {mean(0), mean(count), mean(2 * count)};
+    return Eigen::RowVector3d::Constant(mean(0));
+  };
   Positions b(count, 3);
   for (Eigen::Index i = 0; i < count; ++i) {  // all sources while a vertex's neighbours are at hand
     const std::span<const int> neighbours = neighbours_of(rings, i);
@@ -54,18 +62,7 @@ Positions blend_edge_differences(const OneRings& rings, const std::vector<Positi
     for (Eigen::Index s = 0; s < weights.rows(); ++s) {
       const Positions& V = geometries[static_cast<std::size_t>(s)];
       const Eigen::RowVector3d V_i = V.row(i);
-      for (const int j : neighbours) {
-        const Eigen::RowVector3d edge = V_i - V.row(j);
-        if (is_per_axis) {
-          const auto shares = [&](Eigen::Index v) {
-            return Eigen::RowVector3d(weights(s, v), weights(s, v + count),
-                                      weights(s, v + 2 * count));
-          };
-          sum += ((shares(i) + shares(j)) / 2).cwiseProduct(edge);
-        } else {
-          sum += (weights(s, i) + weights(s, j)) / 2 * edge;
-        }
-      }
+      for (const int j : neighbours) sum += mean_shares(s, i, j).cwiseProduct(V_i - V.row(j));
     }
     b.row(i) = sum;
   }

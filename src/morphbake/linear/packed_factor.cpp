@@ -84,25 +84,25 @@ MORPHBAKE_INLINE void subtract_from_columns(const typename Vector::Scalar* L, in
 
 /// The triangle's tile on the diagonal, which holds the inverse of each diagonal entry.
 template <class Vector, int N>
-MORPHBAKE_INLINE void solve_triangle(const typename Vector::Scalar* D, const int* rows,
+MORPHBAKE_INLINE void solve_triangle(const typename Vector::Scalar* tile, const int* rows,
                                      typename Vector::Type* y) {
   for (int i = 0; i < kTile; ++i) {
     for (int n = 0; n < N; ++n) {
       auto sum = y[N * rows[i] + n];
-      for (int j = 0; j < i; ++j) sum -= D[kTile * i + j] * y[N * rows[j] + n];
-      y[N * rows[i] + n] = sum * D[(kTile + 1) * i];
+      for (int j = 0; j < i; ++j) sum -= tile[kTile * i + j] * y[N * rows[j] + n];
+      y[N * rows[i] + n] = sum * tile[(kTile + 1) * i];
     }
   }
 }
 
 template <class Vector, int N>
-MORPHBAKE_INLINE void solve_transposed_triangle(const typename Vector::Scalar* D, const int* rows,
-                                                typename Vector::Type* y) {
+MORPHBAKE_INLINE void solve_transposed_triangle(const typename Vector::Scalar* tile,
+                                                const int* rows, typename Vector::Type* y) {
   for (int i = kTile; i-- > 0;) {
     for (int n = 0; n < N; ++n) {
       auto sum = y[N * rows[i] + n];
-      for (int j = i + 1; j < kTile; ++j) sum -= D[kTile * j + i] * y[N * rows[j] + n];
-      y[N * rows[i] + n] = sum * D[(kTile + 1) * i];
+      for (int j = i + 1; j < kTile; ++j) sum -= tile[kTile * j + i] * y[N * rows[j] + n];
+      y[N * rows[i] + n] = sum * tile[(kTile + 1) * i];
     }
   }
 }
@@ -242,7 +242,8 @@ void PackedFactor<Scalar>::pack(const SupernodalFactor& factor, std::size_t supe
       const int i = row - first_row;
       rows_[kTile * (node.first_tile + static_cast<std::size_t>(tile)) +
             static_cast<std::size_t>(i)] =
-          factor.rows[static_cast<std::size_t>(factor.row_start[supernode] + row)];
+          factor.rows[static_cast<std::size_t>(factor.row_start[supernode]) +
+                      static_cast<std::size_t>(row)];
       for (int column = 0; column < std::min(left, columns); ++column) {
         to[kTile * column + i] = value(column);
       }
