@@ -117,25 +117,35 @@ WrittenOutput write_output(const SolvedRecipe& solved, const Output& output,
   return result;
 }
 
-/// Fewer targets that keep the bounds, as those of one tolerance do and those of another do not.
+/// A tolerance whose targets do not keep an output's bounds.
+struct FailingTolerance {
+  double tolerance = 0;
+  std::size_t targets = 0;
+};
+
+/// A tolerance whose targets do, and what they give.
+struct KeepingTolerance {
+  double tolerance = 0;
+  WrittenOutput written;
+};
+
+/// Fewer targets that keep the bounds, between two tolerances.
 ///
 /// @param write  an output whose targets are chosen for a tolerance
-WrittenOutput fewest_targets(const Output& output, double failing, double keeping,
-                             std::size_t failing_targets, WrittenOutput kept,
+WrittenOutput fewest_targets(const Output& output, FailingTolerance failing,
+                             KeepingTolerance keeping,
                              const std::function<WrittenOutput(double tolerance)>& write) {
   constexpr int kHalvings = 3;
-  for (int i = 0; i < kHalvings && failing_targets + 1 < kept.all_targets; ++i) {
-    const double middle = std::sqrt(failing * keeping);
+  for (int i = 0; i < kHalvings && failing.targets + 1 < keeping.written.all_targets; ++i) {
+    const double middle = std::sqrt(failing.tolerance * keeping.tolerance);
     WrittenOutput tried = write(middle);
     if (keeps_bounds(output, tried.report)) {
-      keeping = middle;
-      kept = std::move(tried);
+      keeping = {middle, std::move(tried)};
     } else {
-      failing = middle;
-      failing_targets = tried.all_targets;
+      failing = {middle, tried.all_targets};
     }
   }
-  return kept;
+  return std::move(keeping.written);
 }
 
 /// How many targets the profile's client reads of a mesh; none: no limit is known.
@@ -158,12 +168,11 @@ WrittenOutput write_fewest(const SolvedRecipe& solved, const OutputInputs& input
   WrittenOutput written = write(tolerance);
   for (int i = 0; i < kMostTightenings && !keeps_bounds(output, written.report); ++i) {
     if (written.report.targets.size() + 1 >= frames) break;
-    const double failing = tolerance;
-    const std::size_t failing_targets = written.all_targets;
+    const FailingTolerance failing{tolerance, written.all_targets};
     tolerance *= kTighter;
     written = write(tolerance);
     if (!keeps_bounds(output, written.report)) continue;
-    return fewest_targets(output, failing, tolerance, failing_targets, std::move(written), write);
+    return fewest_targets(output, failing, {tolerance, std::move(written)}, write);
   }
   return written;
 }
