@@ -10,11 +10,12 @@
 if(NOT CMAKE_SCRIPT_MODE_FILE)
   set(MORPHBAKE_COMMIT_SCRIPT ${CMAKE_CURRENT_LIST_FILE})
   function(morphbake_commit target input)
+    cmake_path(ABSOLUTE_PATH input BASE_DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR})
     set(output ${CMAKE_CURRENT_BINARY_DIR}/version.cpp)
     add_custom_target(
       ${target}_commit
       COMMAND ${CMAKE_COMMAND} -DROOT=${PROJECT_SOURCE_DIR} -DVERSION=${PROJECT_VERSION}
-              -DINPUT=${CMAKE_CURRENT_SOURCE_DIR}/${input} -DOUTPUT=${output} -P ${MORPHBAKE_COMMIT_SCRIPT}
+              -DINPUT=${input} -DOUTPUT=${output} -P ${MORPHBAKE_COMMIT_SCRIPT}
       BYPRODUCTS ${output}
       COMMENT "Looking up the commit"
       VERBATIM)
