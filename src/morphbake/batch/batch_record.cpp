@@ -11,6 +11,19 @@ namespace {
 constexpr JsonLimits kLimits = {std::size_t{1} << 16, std::size_t{1} << 20};
 constexpr std::string_view kBegin = "{\"name\":";
 
+/// A member that is a whole number of that type; the library converts any number, also one that is
+/// too large.
+template <class Number>
+void read_whole(const Json& json, const char* member, Number& number) {
+  const Json& value = json.at(member);
+  const bool fits =
+      value.is_number_unsigned()
+          ? std::in_range<Number>(value.get<std::uint64_t>())
+          : value.is_number_integer() && std::in_range<Number>(value.get<std::int64_t>());
+  if (!fits) throw Json::type_error::create(302, "a whole number is too large, or is none", &value);
+  value.get_to(number);
+}
+
 Json to_json(const FileState& state) {
   if (!state.is_there) return {{"file", state.file}, {"missing", true}};
   return {{"file", state.file},
@@ -24,8 +37,8 @@ FileState state_of(const Json& json) {
   json.at("file").get_to(state.file);
   state.is_there = !json.contains("missing");
   if (!state.is_there) return state;
-  json.at("bytes").get_to(state.bytes);
-  json.at("mtime_ns").get_to(state.mtime);
+  read_whole(json, "bytes", state.bytes);
+  read_whole(json, "mtime_ns", state.mtime);
   json.at("hash").get_to(state.hash);
   return state;
 }
@@ -48,11 +61,11 @@ Json to_json(const BakeSummary& summary) {
 
 BakeSummary summary_of(const Json& json) {
   BakeSummary summary;
-  json.at("vertices").get_to(summary.vertices);
-  json.at("triangles").get_to(summary.triangles);
-  json.at("frames").get_to(summary.frames);
-  json.at("targets").get_to(summary.targets);
-  json.at("bytes").get_to(summary.bytes);
+  read_whole(json, "vertices", summary.vertices);
+  read_whole(json, "triangles", summary.triangles);
+  read_whole(json, "frames", summary.frames);
+  read_whole(json, "targets", summary.targets);
+  read_whole(json, "bytes", summary.bytes);
   json.at("max_error").get_to(summary.max_error);
   json.at("normal_error").get_to(summary.normal_error);
   for (const Json& stage : json.at("stages")) {
@@ -69,8 +82,8 @@ Problem problem_of(const Json& json) {
   json.at("code").get_to(problem.code);
   json.at("file").get_to(problem.location.file);
   json.at("pointer").get_to(problem.location.pointer);
-  problem.location.line = json.value("line", 0);
-  problem.location.column = json.value("column", 0);
+  if (json.contains("line")) read_whole(json, "line", problem.location.line);
+  if (json.contains("column")) read_whole(json, "column", problem.location.column);
   json.at("message").get_to(problem.message);
   json.at("hint").get_to(problem.hint);
   return problem;
@@ -95,7 +108,7 @@ BatchRecord record_of(const Json& json) {
   json.at("request").get_to(record.request);
   record.key = json.value("key", "");
   record.connectivity = json.value("connectivity", "");
-  json.at("written_ns").get_to(record.written);
+  read_whole(json, "written_ns", record.written);
   for (const Json& state : json.at("inputs")) record.inputs.push_back(state_of(state));
   for (const Json& state : json.at("outputs")) record.outputs.push_back(state_of(state));
   return record;

@@ -44,6 +44,25 @@ TEST(BatchRecord, IsNoneWhenCutOffAnywhere) {
   }
 }
 
+TEST(BatchRecord, IsNoneWhereANumberIsNotWholeOrDoesNotFit) {
+  const std::string line = record_to_line(a_record("a"));
+  const std::pair<std::string, std::vector<std::string>> changes[] = {
+      {"\"vertices\":10", {"2147483648", "1e24", "1.5", "-2147483649"}},
+      {"\"bytes\":1000", {"-1", "18446744073709551616"}},
+      {"\"line\":3", {"1e24"}},
+      {"\"mtime_ns\":2,", {"1e24,", "9223372036854775808,"}},
+      {"\"written_ns\":1700000000123456789", {"1e24"}}};
+  for (const auto& [part, numbers] : changes) {
+    const std::size_t at = line.find(part), colon = part.find(':') + 1;
+    ASSERT_NE(at, std::string::npos) << part;
+    for (const std::string& number : numbers) {
+      std::string other = line;
+      other.replace(at + colon, part.size() - colon, number);
+      EXPECT_FALSE(record_from_line(other)) << part << ": " << number;
+    }
+  }
+}
+
 TEST(BatchRecord, ComesBackAsItWas) {
   for (const char* name : {"a", "a/\n\"\\ \xc3\xa4"}) {
     const std::string line = record_to_line(a_record(name));
