@@ -91,11 +91,11 @@ struct LoopArguments {
 /// The options `--size`, `--frames` and `--formats`.
 void add_loop(CLI::App& parser, LoopArguments& loop);
 
-/// The option `--preview recipe` or `none`.
-void add_preview_choice(CLI::App& parser, bool& with_previews);
-
 /// @throws BakeError "usage.bad-argument" for a size that is none
 PreviewRequest request_of(const LoopArguments& loop);
+
+/// The option `--preview recipe` or `none`.
+void add_preview_choice(CLI::App& parser, bool& with_previews);
 
 /// The options `--tolerance`, `--relative`, `--normals`, `--attributes`, `--strict` and
 /// `--threads`.

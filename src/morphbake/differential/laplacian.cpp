@@ -14,14 +14,19 @@ std::span<const int> neighbours_of(const OneRings& rings, Eigen::Index i) {
 
 }  // namespace
 
+std::vector<Eigen::Index> sources_with_weights(const Eigen::MatrixXd& weights) {
+  std::vector<Eigen::Index> sources;
+  for (Eigen::Index s = 0; s < weights.rows(); ++s) {
+    if (!weights.row(s).isZero(0)) sources.push_back(s);
+  }
+  return sources;
+}
+
 Positions differential_coordinates(const OneRings& rings, const Positions& positions) {
   Positions W(positions.rows(), 3);
   for (int i = 0; i < positions.rows(); ++i) {
-    const auto v = static_cast<std::size_t>(i);
     Eigen::RowVector3d sum = Eigen::RowVector3d::Zero();
-    for (int n = rings.offsets[v]; n < rings.offsets[v + 1]; ++n) {
-      sum += positions.row(i) - positions.row(rings.neighbours[static_cast<std::size_t>(n)]);
-    }
+    for (const int j : neighbours_of(rings, i)) sum += positions.row(i) - positions.row(j);
     W.row(i) = sum / rings.degree(i);
   }
   return W;
@@ -32,11 +37,8 @@ Eigen::SparseMatrix<double> symmetric_laplacian(const OneRings& rings) {
   std::vector<Eigen::Triplet<double>> entries;
   entries.reserve(rings.neighbours.size() + rings.offsets.size());
   for (int i = 0; i < vertex_count; ++i) {
-    const auto v = static_cast<std::size_t>(i);
     entries.emplace_back(i, i, rings.degree(i));
-    for (int n = rings.offsets[v]; n < rings.offsets[v + 1]; ++n) {
-      entries.emplace_back(i, rings.neighbours[static_cast<std::size_t>(n)], -1.0);
-    }
+    for (const int j : neighbours_of(rings, i)) entries.emplace_back(i, j, -1.0);
   }
   Eigen::SparseMatrix<double> K_L(vertex_count, vertex_count);
   K_L.setFromTriplets(entries.begin(), entries.end());
@@ -55,11 +57,12 @@ Positions blend_edge_differences(const OneRings& rings, const std::vector<Positi
     if (is_per_axis) return {mean(0), mean(count), mean(2 * count)};
     return Eigen::RowVector3d::Constant(mean(0));
   };
+  const std::vector<Eigen::Index> sources = sources_with_weights(weights);
   Positions b(count, 3);
   for (Eigen::Index i = 0; i < count; ++i) {  // all sources while a vertex's neighbours are at hand
     const std::span<const int> neighbours = neighbours_of(rings, i);
     Eigen::RowVector3d sum = Eigen::RowVector3d::Zero();
-    for (Eigen::Index s = 0; s < weights.rows(); ++s) {
+    for (const Eigen::Index s : sources) {
       const Positions& V = geometries[static_cast<std::size_t>(s)];
       const Eigen::RowVector3d V_i = V.row(i);
       for (const int j : neighbours) sum += mean_shares(s, i, j).cwiseProduct(V_i - V.row(j));

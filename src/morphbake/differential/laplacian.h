@@ -18,6 +18,11 @@ Positions differential_coordinates(const OneRings& rings, const Positions& posit
 /// with the constants on each connected component as its null space.
 Eigen::SparseMatrix<double> symmetric_laplacian(const OneRings& rings);
 
+/// Those with a weight other than 0 somewhere, rising: the others add nothing to any sum.
+///
+/// @param weights  #sources by any number
+std::vector<Eigen::Index> sources_with_weights(const Eigen::MatrixXd& weights);
+
 /// Right-hand side of K_L V' = b that blends the sources' differences along edges:
 ///
 ///   b_i = sum_j sum_s (T_s,i + T_s,j) / 2 (v_s,i - v_s,j)   over the neighbours j of i

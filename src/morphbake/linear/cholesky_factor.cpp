@@ -174,8 +174,8 @@ cholmod_factor* analysed(cholmod_sparse& matrix, Workspace& workspace,
   return cholmod_analyze_p(&matrix, given.data(), nullptr, 0, &workspace.common);
 }
 
-/// Gives memory back to the system as it is read for the last time: a factor and its packed form
-/// are not there at once. Whole blocks of pages; what is left is freed with the rest.
+/// Gives memory back to the system as it is read for the last time, so that a factor and its packed
+/// form are not there as a whole at once. Whole blocks of pages; the rest is freed with the factor.
 class ReadOnce {
  public:
   explicit ReadOnce(double* values) : next_(first_whole_block(values)), values_(values) {}

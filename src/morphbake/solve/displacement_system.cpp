@@ -200,6 +200,7 @@ void DisplacementSystem::balance_axis(const Eigen::VectorXd& variation, Eigen::I
 void DisplacementSystem::blend(const Eigen::MatrixXd& change, Goal& goal) const {
   const Eigen::Index count = mesh_.connectivity.vertex_count;
   const Eigen::Index stride = change.cols() > count ? count : 0;
+  const std::vector<Eigen::Index> sources = sources_with_weights(change);
   goal.blend.resize(count, 3);
   goal.start.resize(count, 3);
   for (Eigen::Index v = 0; v < count; ++v) {
@@ -207,12 +208,12 @@ void DisplacementSystem::blend(const Eigen::MatrixXd& change, Goal& goal) const 
     for (Eigen::Index axis = 0; axis < 3; ++axis) {
       const auto shares = change.col(v + axis * stride);
       double blend = 0;
-      for (std::size_t s = 0; s < centres_.size(); ++s) {
-        blend += shares(static_cast<Eigen::Index>(s)) * mesh_.geometries[s](v, axis);
+      for (const Eigen::Index s : sources) {
+        blend += shares(s) * mesh_.geometries[static_cast<std::size_t>(s)](v, axis);
       }
       double start = blend;
-      for (std::size_t s = 0; s < centres_.size(); ++s) {
-        start -= shares(static_cast<Eigen::Index>(s)) * centres_[s](component, axis);
+      for (const Eigen::Index s : sources) {
+        start -= shares(s) * centres_[static_cast<std::size_t>(s)](component, axis);
       }
       goal.blend(v, axis) = blend;
       goal.start(v, axis) = start;
